@@ -36,8 +36,8 @@ struct AlternatingDirections {
 AlternatingDirections::AlternatingDirections(const ContactProblem& whitened)
     : p(whitened), graph(contact_graph(whitened)), base(whitened.E) {
   constexpr double kShare = 1e-4;
-  for (int i = 0; i < p.num_contacts(); ++i)
-    base.segment<3>(3 * i).array() += kShare * delassus_trace(p, i) / 3.0;
+  const VecX traces = delassus_traces(p);
+  for (int i = 0; i < p.num_contacts(); ++i) base.segment<3>(3 * i).array() += kShare * traces[i] / 3.0;
 }
 
 bool AlternatingDirections::factorize() {

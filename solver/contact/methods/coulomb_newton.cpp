@@ -205,8 +205,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   }
 
   // 2. Proximal points
-  VecX diagonal(problem.num_contacts());
-  for (int i = 0; i < problem.num_contacts(); ++i) diagonal[i] = delassus_trace(problem, i) / 3.0;
+  const VecX diagonal = delassus_traces(problem) / 3.0;
   if (solution->gamma.size() == problem.b.size()) sub.centre = solution->gamma;
   SolveOptions inner = options;
   double share = rigid ? share_ : kFirstShare;

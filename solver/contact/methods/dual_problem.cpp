@@ -51,11 +51,12 @@ double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g) 
   const ContactProblem& p = dual.white.problem;
   CUPOLA_ASSERT(gamma.size() == p.b.size() && g.size() == p.b.size());
   const bool certifiable = dual.measure == ErrorMeasure::force_error;
+  const VecX traces = first_rigid_contact(p) ? delassus_traces(p) : VecX();
   double sum = 0.0, squared_expected = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Vec3 gamma_i = gamma.segment<3>(3 * i), g_i = g.segment<3>(3 * i);
     ContactLaw law = contact_law(p, i);
-    if (is_rigid(law)) law.e_n = law.e_t = delassus_trace(p, i);
+    if (is_rigid(law)) law.e_n = law.e_t = traces[i];
     const Vec3 y = g_i - Vec3(law.e_n, law.e_t, law.e_t).cwiseProduct(gamma_i);
     if (certifiable) {
       sum += 2.0 * contact_duality_gap(law, y, gamma_i);

@@ -23,9 +23,10 @@ VecX proximal_compliance(const ContactProblem& p, double share) {
   constexpr double kLargestShare = 0.1;  // more would cost many outer iterations at heavy blocks
   VecX R = VecX::Zero(p.E.size());
   if (share == 0.0) return R;
+  const VecX traces = delassus_traces(p);
   double ratio = 0.0, largest_ratio = std::numeric_limits<double>::infinity();
   for (int i = 0; i < p.num_contacts(); ++i) {
-    const double N = delassus_trace(p, i) / 3.0;
+    const double N = traces[i] / 3.0;
     const auto E = p.E.segment<3>(3 * i).array();
     R.segment<3>(3 * i) = (share * N - E).cwiseMax(0.0);
     ratio = std::max(ratio, (R.segment<3>(3 * i).array() / E).maxCoeff());

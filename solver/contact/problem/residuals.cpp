@@ -13,23 +13,34 @@
 
 namespace cupola {
 
-double delassus_trace(const ContactProblem& p, int i) {
-  double trace = 0.0;
-  const auto add = [&](int k, const Mat63& D) {
-    if (k != ContactProblem::kFixed) trace += (D.transpose() * p.M[k].llt().solve(D)).trace();
-  };
-  add(p.block_a[i], p.D_a[i]);
-  add(p.block_b[i], p.D_b[i]);
-  return trace;
+VecX delassus_traces(const ContactProblem& p) {
+  std::vector<Mat6> inverse(p.M.size());
+  for (size_t k = 0; k < p.M.size(); ++k) inverse[k] = p.M[k].llt().solve(Mat6::Identity());
+  VecX traces = VecX::Zero(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const auto add = [&](int k, const Mat63& D) {
+      if (k == ContactProblem::kFixed) return;
+      const Mat63 response = inverse[k] * D;
+      traces[i] += D.cwiseProduct(response).sum();
+    };
+    add(p.block_a[i], p.D_a[i]);
+    add(p.block_b[i], p.D_b[i]);
+  }
+  return traces;
 }
 
 namespace {
+
+/// Metrics of the projections of rigid contacts (nc); empty if there are none.
+VecX rigid_metrics(const ContactProblem& p) {
+  return first_rigid_contact(p) ? delassus_traces(p) : VecX();
+}
 
 /// Visits every contact with its impulse, the impulse that its law gives, and the metric of the projection:
 /// visit(i, gamma, expected, rigid metric or 0).
 template <class Visit>
 void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
-                               Visit visit) {
+                               const VecX& rigid_metrics, Visit visit) {
   const VecX y0 = relative_velocity(p, x.v) + p.b;
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Vec3 gamma = x.gamma.segment<3>(3 * i);
@@ -39,7 +50,7 @@ void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x
     if (!kind.is_associated()) y[0] += (1.0 - kind.dilatancy) * law.mu * (y + elastic).tail<2>().norm();
     double rigid_metric = 0.0;
     if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
-      rigid_metric = law.e_n = law.e_t = delassus_trace(p, i);
+      rigid_metric = law.e_n = law.e_t = rigid_metrics[i];
       y += elastic - law.e_n * gamma;
     }
     visit(i, gamma, contact_impulse(law, y), rigid_metric);
@@ -48,7 +59,7 @@ void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x
 
 /// Sets contact_law and rigid_contact_speed.
 void measure_contact_law(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
-                         double reference_speed, Residuals* residuals) {
+                         const VecX& rigid_metrics, double reference_speed, Residuals* residuals) {
   double squared_error = 0.0, squared_expected = 0.0;
   const auto add = [&](int, const Vec3& gamma, const Vec3& expected, double rigid_metric) {
     const double error = (gamma - expected).norm();
@@ -57,12 +68,12 @@ void measure_contact_law(const ContactProblem& p, const ContactSolution& x, cons
     residuals->rigid_contact_speed =
         std::max(residuals->rigid_contact_speed, rigid_metric * error / reference_speed);
   };
-  for_each_expected_impulse(p, x, kind, add);
+  for_each_expected_impulse(p, x, kind, rigid_metrics, add);
   if (squared_error == 0.0) return;
   residuals->contact_law = std::sqrt(squared_error) / std::max(x.gamma.norm(), std::sqrt(squared_expected));
 }
 
-double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
+double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, const VecX& rigid_metrics) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   double squared = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -75,7 +86,7 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x) {
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);
     const ContactLaw law = contact_law(p, i);
-    const double compliance = is_rigid(law) ? delassus_trace(p, i) : law.e_n;
+    const double compliance = is_rigid(law) ? rigid_metrics[i] : law.e_n;
     squared += std::pow(kEps * speed / compliance, 2);
   }
   return squared > 0.0 ? std::sqrt(squared) / x.gamma.norm() : 0.0;
@@ -121,7 +132,7 @@ double law_tolerance(const Residuals& residuals, double tolerance) {
 
 VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, const FlowRule& law) {
   VecX errors(problem.num_contacts());
-  for_each_expected_impulse(problem, solution, law,
+  for_each_expected_impulse(problem, solution, law, rigid_metrics(problem),
                             [&errors](int i, const Vec3& gamma, const Vec3& expected, double) {
                               errors[i] = (gamma - expected).norm();
                             });
@@ -193,8 +204,9 @@ Residuals compute_residuals(const ContactProblem& problem, const ContactSolution
   CUPOLA_ASSERT(solution.gamma.size() == problem.b.size());
   Residuals residuals;
   residuals.momentum = momentum_residual(problem, solution, reference_speed);
-  measure_contact_law(problem, solution, law, reference_speed, &residuals);
-  residuals.contact_law_rounding = contact_law_rounding(problem, solution);
+  const VecX metrics = rigid_metrics(problem);
+  measure_contact_law(problem, solution, law, metrics, reference_speed, &residuals);
+  residuals.contact_law_rounding = contact_law_rounding(problem, solution, metrics);
   residuals.cone_violation = cone_violation(problem, solution.gamma);
   residuals.certificate = certificate(problem, solution, law, residuals.cone_violation);
   return residuals;

@@ -58,8 +58,8 @@ double smallest_compliance(const ContactProblem& problem);
 /// Whether the impulses of the problem are unique. They are under the associated law if all E > 0.
 ForcesUnique forces_unique(const ContactProblem& problem, const FlowRule& law);
 
-/// trace(N_ii), N = D^T M^-1 D, 1/kg: response of the contact to a unit impulse on itself.
-double delassus_trace(const ContactProblem& problem, int i);
+/// trace(N_ii), N = D^T M^-1 D, of every contact, 1/kg (nc): its response to a unit impulse on itself.
+VecX delassus_traces(const ContactProblem& problem);
 
 /// Residuals::momentum alone.
 double momentum_residual(const ContactProblem& problem, const ContactSolution& solution,
