@@ -164,8 +164,7 @@ bool NewtonLoop::should_stop(const PrimalPoint& point, double best_residual, con
 
 PrimalPoint NewtonLoop::run(PrimalPoint point) {
   constexpr double kCostRounding = 4e-16;
-  constexpr double kExactSlope = 1e-6;   // beyond this the next Newton step gains more than the line search
-  constexpr double kInexactSlope = 0.1;  // sufficient for an inexact direction
+  constexpr double kFlat = 0.1;  // share of the slope below which the next direction gains more
   // From this iteration on block descent follows also the directions that come from factors. Of steps from
   // rest with much sliding it saves half the time and more. Most solves end before.
   constexpr int kSlow = 10;
@@ -197,10 +196,9 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
 
     // 2. Step: the full direction if the slope at its end is small, otherwise a line search
-    const double flat = options.lag_factor || !motions.empty() ? kInexactSlope : kExactSlope;
     PrimalPoint next = primal_point(p, point.w + d);
-    if (!(std::abs(d.dot(next.gradient)) <= flat * std::abs(d.dot(point.gradient)))) {
-      const LineSearchResult search = exact_line_search(p, point, d, flat);
+    if (!(std::abs(d.dot(next.gradient)) <= kFlat * std::abs(d.dot(point.gradient)))) {
+      const LineSearchResult search = line_search(p, point, d, kFlat);
       summary.line_search_evaluations += search.evaluations;
       if (search.t != 1.0) next = primal_point(p, point.w + search.t * d);
     }

@@ -22,7 +22,7 @@ int usual_newton_iterations(const ContactProblem& problem);
 /// Primal semismooth Newton method for the associated law, all E > 0. Minimises the cost of primal_cost.hpp
 /// in the whitened velocities w = L^T v:
 ///
-///     (I + J G(w) J^T) d = -gradient,   w <- w + t d,   t by exact line search
+///     (I + J G(w) J^T) d = -gradient,   w <- w + t d,   t by line search
 ///
 /// after Castro, Permenter, Han (2022), "An unconstrained convex formulation of compliant contact" (SAP). We
 /// differ in using the exact cone projection with its kinks (no smoothing of friction), in whitening with

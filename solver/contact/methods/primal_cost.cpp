@@ -52,24 +52,19 @@ class Line {
 
   double slope0() const { return slope0_; }
 
-  double slope(double t) const {
-    double slope = slope0_ + t * dd_;
+  struct Derivatives {
+    double slope, curvature;
+  };
+  Derivatives at(double t) const {
+    Derivatives result{slope0_ + t * dd_, dd_};
     for (int i = 0; i < p_.num_contacts(); ++i) {
       const Vec3 dy = dy_.segment<3>(3 * i);
-      const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
-      slope -= (contact_impulse(contact_law(p_, i), y) - point_.gamma.segment<3>(3 * i)).dot(dy);
+      const ContactResponse contact =
+          contact_response(contact_law(p_, i), point_.y.segment<3>(3 * i) + t * dy, dy);
+      result.slope -= (contact.impulse - point_.gamma.segment<3>(3 * i)).dot(dy);
+      result.curvature += contact.curvature;
     }
-    return slope;
-  }
-
-  double curvature(double t) const {
-    double curvature = dd_;
-    for (int i = 0; i < p_.num_contacts(); ++i) {
-      const Vec3 dy = dy_.segment<3>(3 * i);
-      const Vec3 y = point_.y.segment<3>(3 * i) + t * dy;
-      curvature += dy.dot(contact_stiffness(contact_law(p_, i), y) * dy);
-    }
-    return curvature;
+    return result;
   }
 
  private:
@@ -82,19 +77,19 @@ class Line {
 
 }  // namespace
 
-LineSearchResult exact_line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d,
-                                   double slope_reduction) {
+LineSearchResult line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d,
+                             double slope_reduction) {
   constexpr int kMaxEvaluations = 60;  // enough for bisection alone to reach double precision
   CUPOLA_ASSERT(d.size() == point.w.size());
   const Line line(p, point, d);
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   LineSearchResult result{1.0, 0};
   while (result.evaluations < kMaxEvaluations) {
-    const double slope = line.slope(result.t);
+    const auto [slope, curvature] = line.at(result.t);
     ++result.evaluations;
     if (!(std::abs(slope) > slope_reduction * std::abs(line.slope0()))) break;
     (slope > 0.0 ? high : low) = result.t;
-    double next = result.t - slope / line.curvature(result.t);
+    double next = result.t - slope / curvature;
     if (std::isinf(high)) {
       next = std::clamp(next, 1.5 * result.t, 10.0 * result.t);
     } else if (!(next > low + 0.01 * (high - low) && next < high - 0.01 * (high - low))) {

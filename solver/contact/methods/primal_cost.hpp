@@ -29,7 +29,7 @@ struct LineSearchResult {
 
 /// The t > 0 that minimises cost(w + t d), to |slope| <= slope_reduction |slope at 0| or to rounding, by a
 /// safeguarded Newton method on the slope, which is monotone. Requires d . gradient < 0.
-LineSearchResult exact_line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d,
-                                   double slope_reduction);
+LineSearchResult line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d,
+                             double slope_reduction);
 
 }  // namespace cupola

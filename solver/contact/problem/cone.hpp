@@ -81,6 +81,12 @@ ContactRegion contact_region(const ContactLaw& law, const Vec3& y);
 /// theta = 1 and unsymmetric below. On the boundary of stick it is the derivative of the stick side, on the
 /// boundary of separation that of the open side.
 Mat3 contact_stiffness(const ContactLaw& law, const Vec3& y);
+/// Impulse at y, and dy^T G dy: what a line search along dy needs, in one evaluation.
+struct ContactResponse {
+  Vec3 impulse;
+  double curvature;
+};
+ContactResponse contact_response(const ContactLaw& law, const Vec3& y, const Vec3& dy);
 /// The stiffness in stick.
 Mat3 sticking_stiffness(const ContactLaw& law);
 

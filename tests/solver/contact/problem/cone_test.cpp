@@ -1,6 +1,7 @@
 #include "solver/contact/problem/cone.hpp"
 
 #include <cmath>
+#include <set>
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -125,6 +126,26 @@ TEST(Cone, StiffnessIsTheDerivativeForAnyDilatancy) {
       }
     }
   }
+}
+
+TEST(Cone, ResponseIsImpulseAndCurvatureInEveryRegion) {
+  const Vec3 dy(0.3, -0.7, 1.1);
+  const ContactStrength dry, mortar{.tension = 0.1, .cohesion = 0.2, .compression = 0.6};
+  std::set<ContactRegion> regions;
+  for (const ContactStrength& strength : {dry, mortar})
+    for (const double dilatancy : {0.0, 0.3, 1.0})
+      for (const double mu : {0.0, 0.4})
+        for (const double y_n : {-2.0, -1.0, -0.1, 0.1, 1.0})
+          for (const double y_t : {0.0, 0.03, 0.2, 3.0}) {
+            const ContactLaw law{2.0, 0.5, mu, dilatancy, strength};
+            const Vec3 y(y_n, 0.6 * y_t, -0.8 * y_t);
+            const ContactResponse response = contact_response(law, y, dy);
+            regions.insert(contact_region(law, y));
+            EXPECT_EQ(response.impulse, contact_impulse(law, y)) << y.transpose();
+            const double curvature = dy.dot(contact_stiffness(law, y) * dy);
+            EXPECT_NEAR(response.curvature, curvature, 1e-14 * dy.squaredNorm() / law.e_t) << y.transpose();
+          }
+  EXPECT_EQ(regions.size(), 5u);
 }
 
 TEST(Cone, FrictionlessContactIgnoresTangentialValues) {
