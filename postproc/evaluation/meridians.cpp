@@ -113,15 +113,13 @@ void warn_of_hoop_tension(const HoopTension& least, const HoopTension& greatest,
   const double width = *range.max.value - *range.min.value;
   const double share = 2.0 * std::numbers::pi * tension.sum / width;
   if (!(width > 0.0) || share < kMuch) return;
-  e->warnings.push_back(
-      fmt::format("the range of the thrust counts on hoop tension: at its {} end the courses{} carry {} "
-                  "across a meridian by the "
-                  "friction of their bond, which as radial forces is {:.0f} % of its width. Masonry cracked "
-                  "along meridians carries "
-                  "none: `bond: {{type: stack}}` gives its range",
-                  at_least ? "least" : "greatest",
-                  e->assembly.sheets.size() > 1 ? ", most of all of " + tension.largest + "," : "",
-                  force_text(tension.sum), 100.0 * share));
+  e->warnings.push_back(fmt::format(
+      "the range of the thrust counts on hoop tension: at its {} end the courses{} carry {} across "
+      "a meridian by the friction of their bond, which as radial forces is {:.0f} % of its width. "
+      "Masonry cracked along meridians carries none: `bond: {{type: stack}}` gives its range",
+      at_least ? "least" : "greatest",
+      e->assembly.sheets.size() > 1 ? ", most of all of " + tension.largest + "," : "",
+      force_text(tension.sum), 100.0 * share));
 }
 
 }  // namespace
