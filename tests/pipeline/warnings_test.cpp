@@ -143,6 +143,8 @@ TEST(Warnings, NoBlockOfAModelWithGapsLacksJoints) {
 bool is_doubtful(const std::string& name) {
   return name == "wall_j4d_force" ||  // the density of its beam stands for a load
          name ==
+             "arch_moved" ||  // exported under load: its blocks overlap by what they compress their joints
+         name ==
              "dome_circular_herringbone_gap1e-2" ||  // its gaps of 10 mm let corners overlap by some 1e-7 m
          name.starts_with("cross_vault") ||
          name.starts_with("pavilion_vault") ||  // drawn elsewhere, with slivers
