@@ -121,10 +121,11 @@ void lay_run(Layout* layout, int ring, int from, int count, int step) {
   };
   int end = first_width(*layout, ring, step > 0 ? from : from + 1, step);
   if (2 * end < whole) end += whole;
-  for (; laid < count; end += whole) {
+  while (laid < count) {
     if (2 * (count - end) < whole) end = count;
     if (layout->bricks && end - laid > whole) lay(laid + (end - laid + 1) / 2);
     lay(end);
+    end += whole;
   }
 }
 
