@@ -31,8 +31,7 @@ std::vector<double> edges_of(const BondGrid& grid, const std::vector<OpeningPlac
   const auto coincide = [&](double a, double b) {
     return b - a < 1e-9 * grid.extent;
   };  // as in split_at_corners()
-  const auto rest = std::ranges::unique(edges, coincide);
-  edges.erase(rest.begin(), rest.end());
+  edges.erase(std::unique(edges.begin(), edges.end(), coincide), edges.end());
   return edges;
 }
 

@@ -118,9 +118,9 @@ void add_cut_cell(const CellGrid& grid, const CellRange& range, const Hexahedron
 /// The same cell with corner 1 in place of corner 0.
 Hexahedron turned(const Hexahedron& cell) {
   Hexahedron out = cell;
-  std::ranges::rotate(out.inner, out.inner.begin() + 1);
-  std::ranges::rotate(out.outer, out.outer.begin() + 1);
-  std::ranges::rotate(out.sides, out.sides.begin() + 1);
+  std::rotate(out.inner.begin(), out.inner.begin() + 1, out.inner.end());
+  std::rotate(out.outer.begin(), out.outer.begin() + 1, out.outer.end());
+  std::rotate(out.sides.begin(), out.sides.begin() + 1, out.sides.end());
   return out;
 }
 

@@ -9,9 +9,10 @@ namespace {
 /// True if all corners of a face belong to the ring below, too: the face lies on the bed, and is no cut
 /// through a cell.
 bool is_on_bed_below(const Assembly& assembly, const Part& part, int f) {
-  const auto of_block = std::ranges::equal_range(assembly.parts, part.block, {}, &Part::block);
+  const auto first = std::ranges::lower_bound(assembly.parts, part.block, {}, &Part::block);
+  const auto last = std::ranges::upper_bound(assembly.parts, part.block, {}, &Part::block);
   const auto in_ring_below = [&](int v) {
-    return std::ranges::any_of(of_block, [&](const Part& below) {
+    return std::any_of(first, last, [&](const Part& below) {
       if (below.ring != part.ring - 1) return false;
       for (int g = below.face_start; g < below.face_start + below.num_faces; ++g)
         if (std::ranges::find(assembly.face(g), v) != assembly.face(g).end()) return true;
