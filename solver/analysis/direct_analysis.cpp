@@ -212,8 +212,12 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
   summary.forces_unique = {false,
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
-  const bool falls = limit.no_state && holds_the_case(scene);
-  summary.status = limit.unlimited ? Status::stable : falls ? Status::moving : Status::unconverged;
+  if (limit.unlimited)
+    summary.status = Status::stable;
+  else if (limit.throughout && holds_the_case(scene))
+    summary.status = state ? Status::stable : Status::moving;
+  else
+    summary.status = Status::unconverged;
   summary.message = name + ": " + limit.message;
   if (limit.unlimited)
     write_state_of_case(scene, assembly, sinks, &summary);

@@ -23,8 +23,8 @@ struct DirectTrial {
 /// there is none.
 struct DirectLimit {
   bool found = false;
-  bool unlimited = false;  ///< not found because the structure stands at every value in one direction
-  bool no_state = false;   ///< not found because a mechanism moves at every value of the bracket
+  bool unlimited = false;   ///< not found because the structure stands at every value in one direction
+  bool throughout = false;  ///< not found because what stands or moves does so at every value of the bracket
   double admissible = 0.0, moving = 0.0;
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads
   /// (motion_proof.hpp). Otherwise none do of up to `resisting_forces` times those found (conic_bounds.hpp).

@@ -125,9 +125,11 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
           fmt::format("no limit: the structure stands without friction (below {:g})", kNoFriction);
     }
     // Joints with less friction or of less extent bear no force that the others do not.
-    if (parameter != LimitSearch::Parameter::thickness && !ends.above.admissible()) {
-      limit.no_state = true;
-      limit.message = fmt::format("the structure moves at every value from {:g} to {:g}", low, high);
+    if (parameter != LimitSearch::Parameter::thickness && !limit.unlimited) {
+      limit.throughout = true;
+      limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
+                                  ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
+                                  ends.below.admissible() ? "stands" : "moves", low, high);
     }
     limit.trials = trials.count;
     limit.iterations = trials.iterations;

@@ -85,12 +85,12 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
     const std::string everywhere =
         fmt::format("the structure moves at every value from {:g} to {:g}", in_unit(low), in_unit(high));
     if (greatest.outcome == ConicOutcome::infeasible) {
-      limit.no_state = true;
+      limit.throughout = true;
       limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
     } else if (bounded && end > low && end < high) {
       limit.message += fmt::format("; it stands up to {:g}", in_unit(end));
     } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
-      limit.no_state = true;
+      limit.throughout = true;
       limit.message =
           everywhere + (end < high ? fmt::format("; it stands only below, up to {:g}", in_unit(end))
                                    : std::string("; it stands only above"));

@@ -35,7 +35,7 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
   limit.trials = 1;
   limit.iterations = solution.iterations;
   if (solution.outcome == ConicOutcome::infeasible) {
-    limit.no_state = true;
+    limit.throughout = true;
     limit.message = "no admissible state exists, whatever the stress";
     return limit;
   }
