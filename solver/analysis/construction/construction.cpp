@@ -125,6 +125,7 @@ void Construction::lay(const std::vector<int>& blocks, int ring) {
     harden(before, model_at(std::nullopt));
   }
   for (const int block : blocks) state_.laid[block] = 1;
+  new_.insert(new_.end(), blocks.begin(), blocks.end());
   // For pictures: where the blocks that it touches are.
   for (const int block : blocks) {
     Vec3 sum = Vec3::Zero();
@@ -138,7 +139,12 @@ void Construction::lay(const std::vector<int>& blocks, int ring) {
     }
     if (count > 0) state_.displacement[block] = sum / count;
   }
-  build_problem(std::nullopt);
+}
+
+bool Construction::any_free() const {
+  for (size_t block = 0; block < state_.laid.size(); ++block)
+    if (state_.laid[block] && !is_held(static_cast<int>(block))) return true;
+  return false;
 }
 
 /// A joint whose compliance changes keeps its forces: the elastic displacements that they cause with the new
@@ -164,8 +170,19 @@ void Construction::harden(const Model& before, const Model& after) {
   }
 }
 
+/// The free blocks laid since the last equilibrium, if others were part of it.
+std::optional<std::vector<int>> Construction::new_blocks() const {
+  if (!scene_.analysis.staged.carry) return std::nullopt;
+  std::vector<int> blocks;
+  for (const int block : new_)
+    if (const int i = problem_.model.free_index[block]; i != ContactProblem::kFixed) blocks.push_back(i);
+  if (static_cast<int>(blocks.size()) == problem_.model.num_free()) return std::nullopt;
+  return blocks;
+}
+
 StaticSolution Construction::solve(std::optional<double> trial) {
   build_problem(trial);
+  options_.new_blocks = new_blocks();
   int solves = 0;
   return solve_breaking(problem_.model, problem_.rest, problem_.contacts, options_, &problem_.memories,
                         &solves);
@@ -174,6 +191,7 @@ StaticSolution Construction::solve(std::optional<double> trial) {
 void Construction::accept(const StaticSolution& solution) {
   CUPOLA_ASSERT(solution.outcome == StaticOutcome::equilibrium);
   if (!scene_.analysis.staged.carry) return;
+  new_.clear();
   ContactMemories memories = problem_.memories;
   update_memories(problem_.model, solution.step, solution.step_solution, problem_.rest, problem_.contacts,
                   static_step_options(options_, solution.h), &memories);

@@ -61,13 +61,14 @@ class Construction {
   /// m: by which the most compressed fresh head joint has closed since it was laid, in the equilibrium of the
   /// last solve.
   double head_squeeze(const StaticSolution& solution) const;
-  bool any_free() const { return !problem_.model.free_blocks.empty(); }
+  bool any_free() const;
 
  private:
   Model model_at(std::optional<double> trial) const;
   bool is_held(int block) const;
   bool is_complete() const;
   void build_problem(std::optional<double> trial);
+  std::optional<std::vector<int>> new_blocks() const;
   void harden(const Model& before, const Model& after);
 
   const Case& scene_;
@@ -75,7 +76,8 @@ class Construction {
   StaticOptions options_;
   ContactSet complete_;  ///< contacts of the complete assembly as designed
   BuiltState state_;
-  int ring_ = 0;  ///< youngest course
+  int ring_ = 0;          ///< youngest course
+  std::vector<int> new_;  ///< blocks laid since the last equilibrium
   StageProblem problem_;
 };
 

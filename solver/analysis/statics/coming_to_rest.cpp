@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "solver/contact/methods/newton.hpp"
+#include "solver/contact/problem/cone.hpp"
 
 // The verdict on motions is in proximal_verdict.cpp.
 
@@ -14,6 +16,27 @@ namespace cupola {
 ComingToRest::ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
                            const ContactMemories& memories, const StaticOptions& options)
     : ProximalPoint(model, start, contacts, memories, options, {40, 1e-4, 1e-3}) {}
+
+bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
+  constexpr double kLonger = 30.0;  // the first step suits structures that settle under all their weight
+  if (first_rigid_contact(step_.problem)) return false;
+  set_step(std::min(largest_h_, kLonger * trial_.h));
+  const ContactProblem& problem = step_.problem;
+  x_.v = VecX::Zero(problem.v_star.size());
+  for (const int block : new_blocks) {
+    Mat6 H = problem.M[block];
+    Eigen::Matrix<double, 6, 1> impulse = H * problem.v_star.segment<6>(6 * block);
+    for (int i = 0; i < problem.num_contacts(); ++i) {
+      if (problem.block_a[i] != block && problem.block_b[i] != block) continue;
+      const Mat63& D = problem.block_a[i] == block ? problem.D_a[i] : problem.D_b[i];
+      const Mat63 DG = D * sticking_stiffness(contact_law(problem, i));
+      H += DG * D.transpose();
+      impulse -= DG * problem.b.segment<3>(3 * i);
+    }
+    x_.v.segment<6>(6 * block) = H.llt().solve(impulse);
+  }
+  return true;
+}
 
 void ComingToRest::iterate() {
   ContactSolverOptions solve = solve_options();

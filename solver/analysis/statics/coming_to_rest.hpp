@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "solver/analysis/statics/proximal_point.hpp"
 #include "solver/conic/motion_proof.hpp"
@@ -19,6 +20,10 @@ class ComingToRest : public ProximalPoint {
     set_step(other.h);
     x_ = other.step_solution;
   }
+
+  /// Starts from rest, but for these free blocks: they stick to their neighbours at rest. False if a contact
+  /// is rigid.
+  bool start_from_rest(const std::vector<int>& new_blocks);
 
  private:
   void iterate() override;

@@ -137,10 +137,22 @@ StaticSolution solve_from_start(const Model& model, const State& start, const Co
   return ComingToRest(model, start, contacts, memories, options).run();
 }
 
-}  // namespace
-
-StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
+/// Near the start, of which only some blocks are new. Unconverged if no equilibrium is found quickly.
+StaticSolution solve_nearby(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
+  constexpr int kIterations = 8;  // stages of domes take 2 to 5
+  if (!options.new_blocks || options.solve.law.is_associated() ||
+      options.solve.method != ContactMethod::newton)
+    return {};
+  StaticOptions few = options;
+  few.solve.max_iterations = std::min(options.solve.max_iterations.value_or(kIterations), kIterations);
+  ComingToRest nearby(model, start, contacts, memories, few);
+  return nearby.start_from_rest(*options.new_blocks) ? nearby.run() : StaticSolution{};
+}
+
+/// From a start that need not be near an equilibrium.
+StaticSolution solve_from_afar(const Model& model, const State& start, const ContactSet& contacts,
+                               const ContactMemories& memories, const StaticOptions& options) {
   StaticSolution solution;
   if (options.solve.law.is_associated() || options.control) {
     solution = ComingToRest(model, start, contacts, memories, options).run();
@@ -178,6 +190,20 @@ StaticSolution solve_static(const Model& model, const State& start, const Contac
     solution.iterations += iterations;
   }
   certify(model, start, contacts, options, &solution);
+  return solution;
+}
+
+}  // namespace
+
+StaticSolution solve_static(const Model& model, const State& start, const ContactSet& contacts,
+                            const ContactMemories& memories, const StaticOptions& options) {
+  StaticSolution nearby = solve_nearby(model, start, contacts, memories, options);
+  if (nearby.outcome == StaticOutcome::equilibrium) {
+    certify(model, start, contacts, options, &nearby);
+    return nearby;
+  }
+  StaticSolution solution = solve_from_afar(model, start, contacts, memories, options);
+  solution.iterations += nearby.iterations;
   return solution;
 }
 

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "assembly/base/named_enum.hpp"
 #include "solver/analysis/statics/cyclic_symmetry.hpp"
@@ -29,6 +30,9 @@ struct StaticOptions {
   /// Non-associated laws: only the path from the start counts, not an equilibrium found from the associated
   /// solution, whose dilatancy may have jammed joints. Motions must reach 5 % of the smallest block.
   bool follow_from_start = false;
+  /// If set, the start is an equilibrium but for these free blocks, which are new. Non-associated laws,
+  /// compliant joints, Newton's method: the equilibrium is sought near the start first.
+  std::optional<std::vector<int>> new_blocks = {};
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
@@ -111,6 +115,10 @@ struct StaticSolution {
 /// Where the path shows nothing (unconverged, or a motion of less than 1 % of the smallest block), the
 /// proximal-point iteration above is tried from the associated solution; its equilibrium counts, nothing
 /// else of it.
+///
+/// Where the start was an equilibrium until blocks were added (StaticOptions::new_blocks), the path is short:
+/// the iterations start from rest, with new blocks where they would stick to their neighbours. An equilibrium
+/// that they reach within a few of Newton's counts; everything else is left to the methods above.
 ///
 /// Under a control of the length (length_control.hpp) each iteration also finds the time at which the control
 /// displacement is the one asked for. Under the associated law that displacement is the work-conjugate of the

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -34,8 +35,7 @@ struct CoulombSubproblem {
     return law;
   }
   VecX velocity(const VecX& w) const;
-  VecX impulses(const VecX& w) const;
-  VecX residual(const VecX& w) const { return w - p.v_star - generalized_impulse(p, impulses(w)); }
+  VecX impulses(const VecX& y) const;
   /// d residual / d w = I + D G D^T at the relative velocities y.
   UnsymmetricBlockMatrix jacobian(const VecX& y) const;
 };
@@ -46,8 +46,7 @@ VecX CoulombSubproblem::velocity(const VecX& w) const {
   return y;
 }
 
-VecX CoulombSubproblem::impulses(const VecX& w) const {
-  const VecX y = velocity(w);
+VecX CoulombSubproblem::impulses(const VecX& y) const {
   VecX gamma(y.size());
   for (int i = 0; i < p.num_contacts(); ++i)
     gamma.segment<3>(3 * i) = contact_impulse(contact(i), y.segment<3>(3 * i));
@@ -58,6 +57,18 @@ UnsymmetricBlockMatrix CoulombSubproblem::jacobian(const VecX& y) const {
   std::vector<Mat3> G(p.num_contacts());
   for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i));
   return assemble_jacobian(p, graph, G);
+}
+
+struct CoulombPoint {
+  VecX w, y, gamma, F;  ///< F: w - v_star - D gamma
+};
+
+CoulombPoint point_at(const CoulombSubproblem& sub, VecX w) {
+  CoulombPoint point{std::move(w), {}, {}, {}};
+  point.y = sub.velocity(point.w);
+  point.gamma = sub.impulses(point.y);
+  point.F = point.w - sub.p.v_star - generalized_impulse(sub.p, point.gamma);
+  return point;
 }
 
 /// The solution with all contacts sticking, including those with a gap. False if the matrix is singular.
@@ -99,38 +110,36 @@ bool solve_direction(const BlockPattern& pattern, const UnsymmetricBlockMatrix& 
   return d->allFinite();
 }
 
-/// Semismooth Newton from `w`, with a line search on |F|. True if no block of F exceeds `tolerance`;
-/// otherwise w is the last iterate. Gives up where |F| has not halved in six iterations.
+/// Semismooth Newton from `point`, with a line search on |F|. True if no block of F exceeds `tolerance`;
+/// otherwise point is the last iterate. Gives up where |F| has not halved in six iterations.
 bool solve_subproblem(const CoulombSubproblem& sub, double tolerance, const SolveOptions& options,
-                      BlockLu* lu, VecX* w, SolveSummary* summary) {
+                      BlockLu* lu, CoulombPoint* point, SolveSummary* summary) {
   constexpr int kMaxIterations = 30, kPatience = 6;
   constexpr double kShortest = 1.0 / 64.0, kDecrease = 1e-4;
   const int max_iterations = options.max_iterations.value_or(kMaxIterations);
   std::vector<double> norms;
-  VecX F = sub.residual(*w);
-  for (int k = 0; k < max_iterations && !(largest_block(F) <= tolerance); ++k) {
+  for (int k = 0; k < max_iterations && !(largest_block(point->F) <= tolerance); ++k) {
     throw_if_interrupted();
+    const VecX& F = point->F;
     norms.push_back(F.norm());
     if (k >= kPatience && norms[k] > 0.5 * norms[k - kPatience]) return false;
     ++summary->iterations;
     std::optional<double> forcing;
     if (options.lag_factor) forcing = std::clamp(0.3 * tolerance / largest_block(F), 1e-2, 0.1);
     VecX d;
-    if (!solve_direction(sub.graph.pattern, sub.jacobian(sub.velocity(*w)), F, forcing, lu, &d, summary))
+    if (!solve_direction(sub.graph.pattern, sub.jacobian(point->y), F, forcing, lu, &d, summary))
       return false;
-    VecX trial, F_trial;
+    CoulombPoint trial;
     double t = 2.0;
     do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
       t *= 0.5;
-      trial = *w - t * d;
-      F_trial = sub.residual(trial);
+      trial = point_at(sub, point->w - t * d);
       ++summary->line_search_evaluations;
-    } while (!(F_trial.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
-    if (!(F_trial.norm() < F.norm())) return false;
-    *w = std::move(trial);
-    F = std::move(F_trial);
+    } while (!(trial.F.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
+    if (!(trial.F.norm() < F.norm())) return false;
+    *point = std::move(trial);
   }
-  return largest_block(F) <= tolerance;
+  return largest_block(point->F) <= tolerance;
 }
 
 /// The best solution so far, judged by residuals of the given problem.
@@ -183,11 +192,11 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   // 1. Plain Newton
   if (!rigid) {
     factor_share_ = 0.0;
-    VecX next = w;
+    CoulombPoint next = point_at(sub, w);
     const bool solved = solve_subproblem(sub, tolerance, options, &lu_, &next, &summary);
     if (solved || options.max_iterations) {
-      const double reached = largest_block(sub.residual(next)) / scale;
-      *solution = {white.to_v(next), sub.impulses(next)};
+      const double reached = largest_block(next.F) / scale;
+      *solution = {white.to_v(next.w), std::move(next.gamma)};
       summary.reached = reached;
       summary.residual_history.push_back(reached);
       const bool finite = std::isfinite(reached) && solution->v.allFinite() && solution->gamma.allFinite();
@@ -201,7 +210,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
       summary.time_seconds = wall_seconds() - start;
       return summary;
     }
-    best.include(next, sub.impulses(next), &summary);
+    best.include(next.w, next.gamma, &summary);
   }
 
   // 2. Proximal points
@@ -214,7 +223,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
     sub.R = share * diagonal;
     inner.lag_factor = options.lag_factor && rigid && share == factor_share_;  // R changes the matrix
     factor_share_ = share;
-    VecX next = w;
+    CoulombPoint next = point_at(sub, w);
     if (!solve_subproblem(sub, 0.2 * tolerance, inner, &lu_, &next, &summary)) {
       // What was right for the last problem is not for this one.
       share = summary.outer_iterations == 1 && share < kFirstShare ? kFirstShare : 10.0 * share;
@@ -222,8 +231,8 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
     }
     share_ = share;
     share = std::max(0.3 * share, kSmallestShare);
-    w = next;
-    sub.centre = sub.impulses(w);
+    w = std::move(next.w);
+    sub.centre = std::move(next.gamma);
     best.include(w, sub.centre, &summary);
   }
   summary.time_seconds = wall_seconds() - start;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -54,6 +55,26 @@ TEST(Construction, CarriedColumnSettlesFromTheBirthOfEachBlock) {
       EXPECT_NEAR(normal_force(built.frames.back(), k, k + 1) / ((m - k) * weight), 1.0, 1e-4);
     }
   }
+}
+
+// Under Coulomb's law a stage that carries what the last one left takes one contact solve, from that state.
+// Others are solved under the associated law first.
+TEST(Construction, CarriedStagesTakeOneSolve) {
+  int solves = 0;
+  std::vector<int> of_stages;
+  AnalysisSinks sinks;
+  sinks.log = [&](const std::string& line) {
+    if (line.starts_with("static  h")) ++solves;
+    if (line.starts_with("stage")) of_stages.push_back(std::exchange(solves, 0));
+  };
+  Case scene = course_case(38.7 * kDeg, 0.2);
+  scene.analysis.staged.carry = true;
+  scene.analysis.staged.fresh.cohesion = 2000.0;
+  const Built built = build(scene, make_course({.bricks = 3, .courses = 2}), sinks);
+  ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  ASSERT_EQ(of_stages.size(), 6u);
+  for (size_t stage = 1; stage < of_stages.size(); ++stage)  // before stage 0 the course below is solved
+    EXPECT_EQ(of_stages[stage], 1) << "stage " << stage;
 }
 
 // Two courses below the course laid, instead of all, change neither the verdict nor the cohesion; a stack of
