@@ -33,7 +33,7 @@ WIDTH = 120
 MOST_WORDS = 19000
 
 REMEASURE = {
-    "docs/walls.md walls", "docs/strength.md mortar", "docs/strength.md ranges", "docs/data/accuracy.md features",
+    "docs/strength.md ranges", "docs/data/accuracy.md features",
     "docs/data/imports.md models",
     "docs/data/ranges.md spirals_160",
     *(f"tests/benchmark/README.md {table}" for table in (
