@@ -34,7 +34,6 @@ MOST_WORDS = 19000
 
 REMEASURE = {
     "docs/strength.md ranges", "docs/data/accuracy.md features",
-    "docs/data/imports.md models",
     "docs/data/ranges.md spirals_160",
     *(f"tests/benchmark/README.md {table}" for table in (
         "detection", "methods", "gaps", "stepping", "coulomb", "blocks", "threads", "siconos", "scale", "refinement"))}
