@@ -33,7 +33,7 @@ WIDTH = 120
 MOST_WORDS = 19000
 
 REMEASURE = {
-    "docs/strength.md ranges", "docs/data/accuracy.md features",
+    "docs/data/accuracy.md features",
     "docs/data/ranges.md spirals_160",
     *(f"tests/benchmark/README.md {table}" for table in (
         "detection", "methods", "gaps", "stepping", "coulomb", "blocks", "threads", "siconos", "scale", "refinement"))}
