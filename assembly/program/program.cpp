@@ -15,10 +15,7 @@
 #include "assembly/program/terminal.hpp"
 
 namespace cupola {
-namespace {
 
-/// Keeps freed memory for the next vectors of that size. By default glibc returns it to the system at once,
-/// and a solve then spends a sixth of its time on page faults. release_freed_memory() still returns it.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_TRIM_THRESHOLD, 256 << 20);
@@ -26,8 +23,6 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 64 << 20);
 #endif
 }
-
-}  // namespace
 
 int run_program(std::string_view name, const std::function<ExitCode()>& body) {
   const auto report = [&name](std::string message) {

@@ -16,6 +16,7 @@
 
 #include "assembly/base/process.hpp"
 #include "assembly/case/case_reader.hpp"
+#include "assembly/program/program.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/blocks/multigrid.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
@@ -366,6 +367,7 @@ void threads() {
 }  // namespace cupola
 
 int main(int argc, char** argv) {
+  cupola::keep_freed_memory();
   const std::string table = argc == 2 ? argv[1] : "";
   if (table == "methods")
     cupola::compare_methods();

@@ -3,6 +3,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "assembly/program/program.hpp"
 #include "generators/generate.hpp"
 #include "solver/collision/contact_detector.hpp"
 
@@ -91,4 +92,8 @@ BENCHMARK(WallFromScratch)->Arg(71)->Arg(316)->Unit(benchmark::kMillisecond);  /
 }  // namespace
 }  // namespace cupola
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  cupola::keep_freed_memory();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

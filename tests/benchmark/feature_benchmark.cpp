@@ -9,6 +9,7 @@
 
 #include "assembly/base/process.hpp"
 #include "assembly/case/case_reader.hpp"
+#include "assembly/program/program.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -104,6 +105,7 @@ double seconds_per_step(bool sleep) {
 }  // namespace
 
 int main() {
+  keep_freed_memory();
   fmt::print("scene,feature,unknowns with / without,contacts,factor entries,CPU s,ratio\n");
   const std::string dome = "dome_circular";
   const Measured plain = measure(dome, {});

@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include "assembly/base/process.hpp"
+#include "assembly/program/program.hpp"
 #include "generators/decomposition/decompose.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/meshes.hpp"
@@ -70,4 +71,8 @@ BENCHMARK(SplitCrossByNef)->Unit(benchmark::kMicrosecond);
 }  // namespace
 }  // namespace cupola
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  cupola::keep_freed_memory();
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}

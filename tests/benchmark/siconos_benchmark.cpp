@@ -41,6 +41,7 @@ extern "C" {
 }
 
 #include "assembly/base/process.hpp"
+#include "assembly/program/program.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "tests/benchmark/dome_problem.hpp"
@@ -353,6 +354,7 @@ void compare(const std::string& name, const DomeProblem& dome, double tolerance,
 }  // namespace cupola
 
 int main(int argc, char** argv) {
+  cupola::keep_freed_memory();
   const double tolerance = argc > 1 ? std::atof(argv[1]) : 1e-8;
   const double cap = argc > 2 ? std::atof(argv[2]) : 120.0;
   cupola::DomeProblem dome;
