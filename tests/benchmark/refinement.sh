@@ -19,7 +19,8 @@ for n in "$@"; do
   "$bin/cupola-solve" "$case" "${options[@]}" --assembly "$out/$n/assembly.vtu" --output "$out/$n/results"
   "$bin/cupola-post" analyse "$case" "${options[@]}" --assembly "$out/$n/assembly.vtu" \
     --results "$out/$n/results" --output "$out/$n/post" --tables
-  rm -r "$out/$n/assembly.vtu" "$out/$n/results"
+  rm "$out/$n/assembly.vtu"
+  find "$out/$n/results" -type f ! -name summary.json -delete # which names the revision
 done
 python3 "$here/refinement.py" "$out" "$@" | tee "$out/refinement.csv"
 gnuplot -e "folder='$out'" "$here/refinement.gp"
