@@ -227,6 +227,9 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     write_motion(limit, name, sinks, &summary);
   else if (!limit.found)
     write_nothing_found(scene, assembly, sinks, &summary);
+  // As below: forces that are shown as admissible must balance.
+  if (stands(summary.status) && summary.equilibrium_residual.value_or(0.0) > kOutcomeTolerance)
+    summary.status = Status::unconverged;
   if (limit.found) {
     const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
     const double width = limit.relative_width();

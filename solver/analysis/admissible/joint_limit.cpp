@@ -125,7 +125,8 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
           fmt::format("no limit: the structure stands without friction (below {:g})", kNoFriction);
     }
     // Joints with less friction or of less extent bear no force that the others do not.
-    if (parameter != LimitSearch::Parameter::thickness && !limit.unlimited) {
+    const bool end_solved = ends.below.admissible() ? ends.below.value <= low : ends.above.value >= high;
+    if (parameter != LimitSearch::Parameter::thickness && !limit.unlimited && end_solved) {
       limit.throughout = true;
       limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
                                   ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
