@@ -254,11 +254,9 @@ Assembly read_assembly(const std::string& path) {
   if (has("tie_block_a")) assembly.ties = read_all_rows<BuiltTie>(mesh, "tie_block_a");
   if (has("chain_name")) assembly.chains = read_all_rows<BuiltChain>(mesh, "chain_name");
   read_members(mesh, &assembly);
-  if (has("sheet_name"))
-    assembly.sheets = read_all_rows<Sheet>(mesh, "sheet_name");
-  else if (assembly.num_rings > 0)
-    assembly.sheets = {assumed_sheet(assembly)};
+  if (has("sheet_name")) assembly.sheets = read_all_rows<Sheet>(mesh, "sheet_name");
   check(assembly, path);
+  if (!has("sheet_name") && assembly.num_rings > 0) assembly.sheets = {assumed_sheet(assembly)};
   if (content_hash(assembly) != mesh.field<std::string>("content_hash"))
     throw InputError(
         FileLocation{path},
