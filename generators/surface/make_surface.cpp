@@ -12,14 +12,8 @@
 namespace cupola {
 namespace {
 
-/// Volume of the hexahedron between beds k, l and abscissae a, b, m3.
-double cell_volume(const SurfaceMap& surface, double k, double l, double a, double b) {
-  const auto corner = [&](double bed, double abscissa, int layer) {
-    return surface.point(bed, abscissa, layer);
-  };
-  const auto [in, out] = std::pair(0, surface.num_wythes());
-  const std::array<Vec3, 8> p{corner(k, a, in), corner(k, a, out), corner(k, b, out), corner(k, b, in),
-                              corner(l, a, in), corner(l, a, out), corner(l, b, out), corner(l, b, in)};
+/// Volume of a hexahedron, m3: the corners of its lower face, then those above them.
+double cell_volume(const std::array<Vec3, 8>& p) {
   constexpr std::array<std::array<int, 4>, 6> quads{
       {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 4, 7, 3}, {1, 2, 6, 5}}};
   double six_volumes = 0.0;
@@ -31,22 +25,44 @@ double cell_volume(const SurfaceMap& surface, double k, double l, double a, doub
   return six_volumes / 6.0;
 }
 
-/// Volume with n cells in every ring or over the height, and n in each facet.
-double faceted_volume(const SurfaceMap& surface, int n) {
+/// Points of both skins on a grid over the whole shell, whose lines include the corners of the surface.
+struct SkinGrid {
+  size_t num_beds, num_abscissae;
+  std::vector<Vec3> inner, outer;  // [bed * num_abscissae + abscissa]
+};
+
+/// Grid of n cells over the height and n in each facet.
+SkinGrid sample_skins(const SurfaceMap& surface, int n) {
   std::vector<double> ends{0.0};  // of facets
   if (surface.corners.empty() && surface.closed)
     for (int i = 1; i < 8; ++i) ends.push_back(surface.extent * i / 8);
   for (double corner : surface.corners)
     if (corner > 0.0) ends.push_back(corner);
   ends.push_back(surface.extent);
+  std::vector<double> abscissae;
+  for (size_t facet = 0; facet + 1 < ends.size(); ++facet)
+    for (int i = 0; i < n; ++i) abscissae.push_back(ends[facet] + i * (ends[facet + 1] - ends[facet]) / n);
+  abscissae.push_back(surface.extent);
+  SkinGrid grid{static_cast<size_t>(n) + 1, abscissae.size(), {}, {}};
   const double first_bed = -surface.first_ring(), step = (surface.num_rows - first_bed) / n;
+  for (int k = 0; k <= n; ++k)
+    for (const double abscissa : abscissae) {
+      grid.inner.push_back(surface.intrados(first_bed + k * step, abscissa));
+      grid.outer.push_back(surface.extrados(first_bed + k * step, abscissa));
+    }
+  return grid;
+}
+
+/// Volume of the cells between every `stride`-th line of the grid, m3.
+double faceted_volume(const SkinGrid& grid, size_t stride) {
   double volume = 0.0;
-  for (int k = 0; k < n; ++k)
-    for (size_t facet = 0; facet + 1 < ends.size(); ++facet)
-      for (int i = 0; i < n; ++i) {
-        const double width = (ends[facet + 1] - ends[facet]) / n, a = ends[facet] + i * width;
-        volume += cell_volume(surface, first_bed + k * step, first_bed + (k + 1) * step, a, a + width);
-      }
+  for (size_t k = 0; k + stride < grid.num_beds; k += stride)
+    for (size_t i = 0; i + stride < grid.num_abscissae; i += stride) {
+      const size_t a = k * grid.num_abscissae + i, b = a + stride;  // corners of the cell in the lower bed
+      const size_t up = stride * grid.num_abscissae;
+      volume += cell_volume({grid.inner[a], grid.outer[a], grid.outer[b], grid.inner[b], grid.inner[a + up],
+                             grid.outer[a + up], grid.outer[b + up], grid.inner[b + up]});
+    }
   return volume;
 }
 
@@ -104,9 +120,10 @@ SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythe
 
 double extrapolated_shell_volume(const SurfaceMap& surface) {
   constexpr int n = 16;
-  const double coarse = faceted_volume(surface, n);
-  const double middle = faceted_volume(surface, 2 * n);
-  const double fine = faceted_volume(surface, 4 * n);
+  const SkinGrid grid = sample_skins(surface, 4 * n);
+  const double coarse = faceted_volume(grid, 4);
+  const double middle = faceted_volume(grid, 2);
+  const double fine = faceted_volume(grid, 1);
   const double first = middle + (middle - coarse) / 3.0;
   const double second = fine + (fine - middle) / 3.0;
   return second + (second - first) / 15.0;
