@@ -29,7 +29,7 @@ int vertex_index(const TextLines& lines, std::string_view word, size_t num_verti
 }
 
 /// N of the name "course N" of a group.
-std::optional<int> course_in(std::string_view group) {
+std::optional<int> course_of_group(std::string_view group) {
   constexpr std::string_view kPrefix = "course ";
   if (!group.starts_with(kPrefix)) return std::nullopt;
   group.remove_prefix(kPrefix.size());
@@ -62,12 +62,12 @@ std::vector<RawBlock> read_obj(const std::string& path) {
     if (words[0] == "v") {
       vertices.push_back(lines.point(1));
     } else if (words[0] == "g" && has_objects) {
-      course = words.size() > 1 ? course_in(lines.rest(1)) : std::nullopt;
+      course = words.size() > 1 ? course_of_group(lines.rest(1)) : std::nullopt;
     } else if (words[0] == "o" || words[0] == "g") {
       if (words[0] == "o" && !has_objects) {
         has_objects = true;
         if (!blocks.empty() && blocks.back().mesh.faces.empty()) {  // a group of objects
-          course = course_in(blocks.back().name);
+          course = course_of_group(blocks.back().name);
           blocks.pop_back();
         }
       }
