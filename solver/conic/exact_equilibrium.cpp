@@ -56,10 +56,14 @@ InsidePoint inside_point(const ContactProblem& p, const VecX& given, double shar
     Vec3 gamma = given.segment<3>(3 * i);
     if (!law.carries_shear()) gamma.tail<2>().setZero();
     const double apex = law.tension_limit(), compression = law.strength.compression;
+    const double shear = gamma.tail<2>().norm();
     gamma[0] = std::min(gamma[0], (1.0 - share) * compression);
-    if (apex > 0.0) gamma[0] = std::max(gamma[0], -(1.0 - share) * apex);
+    if (apex > 0.0)
+      gamma[0] = std::max(gamma[0], -(1.0 - share) * apex);
+    else if (law.strength.cohesion > 0.0)  // without tension zero is a limit, too
+      gamma[0] = std::max(gamma[0], share * std::min(shear, compression));
     if (!(gamma[0] + apex > 0.0)) continue;
-    const double limit = (1.0 - share) * law.shear_limit(gamma[0]), shear = gamma.tail<2>().norm();
+    const double limit = (1.0 - share) * law.shear_limit(gamma[0]);
     if (law.carries_shear() && !(limit > 0.0)) continue;
     if (shear > limit) gamma.tail<2>() *= limit / shear;
     point.gamma.segment<3>(3 * i) = gamma;

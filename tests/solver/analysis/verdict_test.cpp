@@ -240,6 +240,29 @@ TEST(ExactEquilibrium, ExistsNextToForcesThatNearlyBalance) {
   EXPECT_FALSE(proves_equilibrium(p, pushed, gamma));
 }
 
+// Cohesion without tension carries shear where nothing presses the joint: exactly at a normal force of zero,
+// which is a limit. A cube is pressed at two opposite corners only, to a tenth of the cohesion; with friction
+// they add 2.5 % to the shear that cohesion carries.
+TEST(ExactEquilibrium, ExistsWhereCohesionCarriesShearWithoutPressure) {
+  const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 1}));
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  ContactProblem p =
+      build_step_problem(scene.model, scene.rest, scene.contacts, scene.memories, step).problem;
+  constexpr double kCohesion = 100.0;  // N
+  p.strength.assign(p.block_a.size(), {.tension = 0.0, .cohesion = kCohesion});
+  const auto corner = [&](int i) { return scene.contacts.points[static_cast<size_t>(i)].point_a; };
+  for (const double share : {0.9, 1.1}) {
+    VecX gamma = VecX::Zero(12);
+    for (int i = 0; i < 4; ++i) {
+      const double distance = (corner(i) - corner(0)).norm();
+      if (distance < 0.1 || distance > 1.2) gamma[3 * i] = 0.1 * kCohesion;
+      gamma[3 * i + 1] = share * kCohesion;
+    }
+    const VecX load = -generalized_impulse(p, gamma);
+    EXPECT_EQ(proves_equilibrium(p, load, gamma), share < 1.0) << share;
+  }
+}
+
 // Sliding resists motion by friction 0.5: a push of 0.49 weights is no proof, one of 0.51 is.
 TEST(MotionProof, SlidingBlockIsProvenToMoveAboveItsFriction) {
   const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 0.2}));
