@@ -150,9 +150,11 @@ void declare_accuracy(Section& s, Analysis& analysis) {
                       "accuracy of the answer; every preset but custom sets the tolerance",
                       declare_wrench_error);
   if (analysis.accuracy.preset == custom) {
+    constexpr double kOfStages = 1e-5;  // what a verdict requires
+    if (analysis.type == AnalysisType::staged && !s.gives("tolerance")) analysis.tolerance = kOfStages;
     s.number("tolerance", analysis.tolerance, rule,
-             "static: largest equilibrium residual accepted; dynamic: largest relative momentum residual of "
-             "a step");
+             "static: largest equilibrium residual accepted; staged: the same, 1e-5 if not given; dynamic: "
+             "largest relative momentum residual of a step");
   } else {
     analysis.tolerance = preset_tolerance(analysis.accuracy.preset, analysis.type);
     s.settled_number("tolerance", analysis.tolerance, rule);

@@ -248,14 +248,20 @@ bool ConstructionRun::has_frame(int stage, bool stands, bool may_end) const {
 void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solution,
                              const LeastSearch::Result& least) {
   const int number = progress_.next;
-  Frame frame = building_.frame(solution);
-  frame.time = stage.ring - 1 + stage.share;
-  set_role(stage_role(solution.outcome), fmt::format("stage {}", number), &frame);
+  const double time = stage.ring - 1 + stage.share;
   const bool stands = solution.outcome == StaticOutcome::equilibrium;
-  if (has_frame(number, stands, staged_.carry && !least.bracket.found)) sinks_.frame(frame);
-  summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
+  const bool framed = has_frame(number, stands, staged_.carry && !least.bracket.found);
+  if (framed || !stands) {
+    Frame frame = building_.frame(solution);
+    frame.time = time;
+    set_role(stage_role(solution.outcome), fmt::format("stage {}", number), &frame);
+    if (framed) sinks_.frame(frame);
+    summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
+  } else {
+    summarize_accuracy(solution, building_.options().tolerance, &summary_);
+  }
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
-                          largest_violation(frame));
+                          building_.violation_above(progress_.worst.violation, solution, time));
   if (!(summary_.accuracy.reached <= progress_.worst_balance))
     progress_.worst_balance = summary_.accuracy.reached;
 
@@ -284,7 +290,7 @@ void ConstructionRun::record(const LaidBlocks& stage, const StaticSolution& solu
                .note = least_note(least, staged_.least)};
   if (stands) {
     row.head_squeeze = building_.head_squeeze(solution);
-    row.displacement = largest_displacement(frame);
+    row.displacement = building_.displacement(solution);
   }
   progress_.stages_csv += csv_row(kConstructionColumns, row) + "\n";
   const std::string line =

@@ -13,6 +13,7 @@
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/stages.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -42,27 +43,33 @@ class StageRun {
         complete_(stage_.assembly.blocks.size() == complete.blocks.size()) {
     ContactDetector detector(stage_.assembly, detection_options(scene));
     contacts_ = detector.update(initial_poses(stage_.assembly));
-    options_ = verdict_options(scene.analysis);
+    options_ = static_options(scene.analysis);
     options_.log = log;
+    search_options_ = verdict_options(scene.analysis);
+    search_options_.log = log;
   }
 
-  StaticSolution solve(double fresh_friction) {
-    model_ = make_model(case_of_stage(scene_, stage_, fresh_friction, complete_), stage_.assembly);
-    memories_ = memories_at_rest(model_, state_at_rest(model_), contacts_.points);
-    return solve_static(model_, state_at_rest(model_), contacts_, memories_, options_);
-  }
+  StaticSolution solve(double fresh_friction) { return solve(fresh_friction, options_); }
+  /// As accurately as a verdict requires.
+  StaticSolution attempt(double fresh_friction) { return solve(fresh_friction, search_options_); }
   /// Frame of the last solve, with the block numbers of the complete assembly.
   Frame frame(const StaticSolution& solution, const Assembly& complete) const;
   const Model& model() const { return model_; }
   const StaticOptions& options() const { return options_; }
 
  private:
+  StaticSolution solve(double fresh_friction, const StaticOptions& options) {
+    model_ = make_model(case_of_stage(scene_, stage_, fresh_friction, complete_), stage_.assembly);
+    memories_ = memories_at_rest(model_, state_at_rest(model_), contacts_.points);
+    return solve_static(model_, state_at_rest(model_), contacts_, memories_, options);
+  }
+
   const Case& scene_;
   ConstructionStage stage_;
   bool complete_;
   ContactSet contacts_;
   ContactMemories memories_;
-  StaticOptions options_;
+  StaticOptions options_, search_options_;
   Model model_;
 };
 
@@ -98,15 +105,45 @@ Bracket critical_friction(const Case& scene, StageRun* run) {
   double hardened = scene.joints.friction;
   if (scene.joints.bed && scene.joints.bed->friction) hardened = *scene.joints.bed->friction;
   return bisect(0.0, hardened, {scene.analysis.staged.relative_width, kNarrowest}, [run](double friction) {
-    const StaticSolution solution = run->solve(friction);
+    const StaticSolution solution = run->attempt(friction);
     return LimitTrial{friction, solution.outcome, solution.speed_ratio};
   });
 }
 
 /// Searches for the fresh friction below which the stage does not stand.
 void search_critical_friction(const Case& scene, StageRun* run, StageResult* stage) {
-  stage->needs_none = run->solve(0.0).outcome == StaticOutcome::equilibrium;
+  stage->needs_none = run->attempt(0.0).outcome == StaticOutcome::equilibrium;
   if (!stage->needs_none) stage->critical = critical_friction(scene, run);
+}
+
+/// A stage with what its record needs. The residuals are those of the static solve.
+struct SolvedStage {
+  StageResult result;
+  Frame frame;
+  Summary summary;
+  Residuals residuals;
+  std::vector<std::string> log;  // if it was not given
+};
+
+SolvedStage solve_stage(const Case& scene, const Assembly& assembly, int ring,
+                        const std::function<void(const std::string&)>& log) {
+  SolvedStage solved;
+  StageRun run(
+      scene, assembly, ring, log ? log : [&solved](const std::string& line) { solved.log.push_back(line); });
+  const StaticSolution solution = run.solve(scene.analysis.staged.fresh.friction);
+  StageResult& stage = solved.result;
+  stage.ring = ring;
+  stage.blocks = run.model().num_free();
+  stage.weight = run.model().free_weight;
+  stage.outcome = solution.outcome;
+  stage.proven = solution.proven;
+  stage.speed_ratio = solution.speed_ratio;
+  stage.message = solution.message;
+  solved.frame = run.frame(solution, assembly);
+  summarize_static(solution, solved.frame, run.model(), run.options().tolerance, &solved.summary);
+  solved.residuals = solution.residuals;
+  if (scene.analysis.staged.critical_friction) search_critical_friction(scene, &run, &stage);
+  return solved;
 }
 
 std::string note(const StageResult& stage) {
@@ -188,31 +225,33 @@ std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, c
   double worst_balance = 0.0;
   std::string table = csv_header(kStageColumns) + "\n";
   const double started = wall_seconds();
-  for (int ring = staged.first_ring; ring <= last; ++ring) {
-    StageRun run(scene, assembly, ring, sinks.log);
-    StageResult stage;
-    const StaticSolution solution = run.solve(staged.fresh.friction);
-    stage.ring = ring;
-    stage.blocks = run.model().num_free();
-    stage.weight = run.model().free_weight;
-    stage.outcome = solution.outcome;
-    stage.proven = solution.proven;
-    stage.speed_ratio = solution.speed_ratio;
-    stage.message = solution.message;
-    const Frame frame = run.frame(solution, assembly);
-    sinks.frame(frame);
-    summarize_static(solution, frame, run.model(), run.options().tolerance, &summary);
-    worst.include(solution.residuals, summary.certified_force_error, summary.forces_unique,
-                  largest_violation(frame));
+  const auto record = [&](const SolvedStage& solved) {
+    const StageResult& stage = solved.result;
+    for (const std::string& line : solved.log) sinks.log(line);
+    sinks.frame(solved.frame);
+    summary = solved.summary;
+    worst.include(solved.residuals, summary.certified_force_error, summary.forces_unique,
+                  largest_violation(solved.frame));
     if (!(summary.accuracy.reached <= worst_balance)) worst_balance = summary.accuracy.reached;
-    if (staged.critical_friction) search_critical_friction(scene, &run, &stage);
     table += csv_row(kStageColumns, stage) + "\n";
     results.push_back(stage);
     sinks.table("stages.csv", table);
-    sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", ring, stage.blocks,
+    sinks.log(fmt::format("ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", stage.ring, stage.blocks,
                           to_string(stage.outcome), stage.speed_ratio, note(stage)));
-    sinks.progress(static_cast<double>(ring - staged.first_ring + 1) / (last - staged.first_ring + 1),
-                   fmt::format("ring {} of {}, {}", ring, last, to_string(stage.outcome)));
+    sinks.progress(static_cast<double>(stage.ring - staged.first_ring + 1) / (last - staged.first_ring + 1),
+                   fmt::format("ring {} of {}, {}", stage.ring, last, to_string(stage.outcome)));
+  };
+  // No stage knows another: each thread solves whole ones. They are recorded in their order.
+  constexpr double kWork = 1e12;  // of one batch: always worth all threads
+  constexpr int kStagesPerThread = 4;
+  const int batch = num_threads() == 1 ? 1 : num_threads() * kStagesPerThread;
+  for (int first = staged.first_ring; first <= last; first += batch) {
+    const int size = std::min(batch, last - first + 1);
+    std::vector<SolvedStage> solved(static_cast<size_t>(size));
+    share_loop(kWork, size, [&](int i) {
+      solved[i] = solve_stage(scene, assembly, first + i, size == 1 ? sinks.log : nullptr);
+    });
+    for (const SolvedStage& stage : solved) record(stage);
     if (sinks.interrupted()) return std::nullopt;
   }
   summary.steps = static_cast<int>(results.size());

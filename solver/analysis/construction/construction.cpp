@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "assembly/base/error.hpp"
+#include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/static_record.hpp"
@@ -45,7 +46,7 @@ void require_carried(const Case& scene) {
 
 Construction::Construction(const Case& scene, const Assembly& assembly,
                            const std::function<void(const std::string&)>& log)
-    : scene_(scene), assembly_(assembly), options_(verdict_options(scene.analysis)) {
+    : scene_(scene), assembly_(assembly), options_(static_options(scene.analysis)) {
   require_carried(scene);
   if (!assembly.ties.empty()) throw InputError("analysis.staged: ties of the assembly require unit: ring");
   options_.log = log;
@@ -119,6 +120,7 @@ void Construction::build_problem(std::optional<double> trial) {
 }
 
 void Construction::lay(const std::vector<int>& blocks, int ring) {
+  constexpr int kOld = -1;
   if (ring != ring_) {
     const Model before = model_at(std::nullopt);
     ring_ = ring;
@@ -127,18 +129,17 @@ void Construction::lay(const std::vector<int>& blocks, int ring) {
   for (const int block : blocks) state_.laid[block] = 1;
   new_.insert(new_.end(), blocks.begin(), blocks.end());
   // For pictures: where the blocks that it touches are.
-  for (const int block : blocks) {
-    Vec3 sum = Vec3::Zero();
-    int count = 0;
-    for (const Contact& contact : complete_.points) {
-      if (contact.block_a != block && contact.block_b != block) continue;
-      const int other = contact.block_a == block ? contact.block_b : contact.block_a;
-      if (!state_.laid[other] || std::ranges::find(blocks, other) != blocks.end()) continue;
-      sum += state_.displacement[other];
-      ++count;
+  std::vector<int> count(state_.laid.size(), kOld);
+  for (const int block : blocks) count[block] = 0;
+  for (const Contact& contact : complete_.points)
+    for (const auto& [block, other] :
+         {std::pair(contact.block_a, contact.block_b), std::pair(contact.block_b, contact.block_a)}) {
+      if (count[block] == kOld || count[other] != kOld || !state_.laid[other]) continue;
+      state_.displacement[block] += state_.displacement[other];
+      ++count[block];
     }
-    if (count > 0) state_.displacement[block] = sum / count;
-  }
+  for (const int block : blocks)
+    if (count[block] > 0) state_.displacement[block] /= count[block];
 }
 
 bool Construction::any_free() const {
@@ -182,9 +183,11 @@ std::optional<std::vector<int>> Construction::new_blocks() const {
 
 StaticSolution Construction::solve(std::optional<double> trial) {
   build_problem(trial);
-  options_.new_blocks = new_blocks();
+  StaticOptions options = options_;
+  if (trial) options.tolerance = verdict_options(scene_.analysis).tolerance;
+  options.new_blocks = new_blocks();
   int solves = 0;
-  return solve_breaking(problem_.model, problem_.rest, problem_.contacts, options_, &problem_.memories,
+  return solve_breaking(problem_.model, problem_.rest, problem_.contacts, options, &problem_.memories,
                         &solves);
 }
 
@@ -222,6 +225,29 @@ double Construction::head_squeeze(const StaticSolution& solution) const {
     squeeze = std::max(squeeze, complete_.points[row].gap + joint.hardened - gap);
   }
   return squeeze;
+}
+
+double Construction::displacement(const StaticSolution& solution) const {
+  double largest = 0.0;
+  for (size_t block = 0; block < state_.displacement.size(); ++block) {
+    const int i = problem_.model.free_index[block];
+    const Vec3 moved = i == ContactProblem::kFixed
+                           ? Vec3::Zero()
+                           : Vec3(solution.h * solution.step_solution.v.segment<3>(6 * i));
+    largest = std::max(largest, (state_.displacement[block] + moved).norm());
+  }
+  return largest;
+}
+
+std::optional<LawViolation> Construction::violation_above(const std::optional<LawViolation>& worst,
+                                                          const StaticSolution& solution, double time) const {
+  const std::vector<double> violations = static_violations(problem_.contacts, solution, options_.solve.law);
+  const auto largest = std::ranges::max_element(violations);
+  if (largest == violations.end() || (worst && !(*largest > worst->value))) return std::nullopt;
+  const auto i = static_cast<size_t>(largest - violations.begin());
+  const Contact& contact = problem_.contacts.points[i];
+  return LawViolation{*largest, number_joints(problem_.contacts).of_contact[i], contact.block_a,
+                      contact.block_b, time};
 }
 
 Frame Construction::frame(const StaticSolution& solution) const {

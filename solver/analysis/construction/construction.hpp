@@ -47,7 +47,8 @@ class Construction {
   /// Lays blocks; from now on `ring` is the youngest course, and older mortar has hardened accordingly.
   void lay(const std::vector<int>& blocks, int ring);
 
-  /// Static solve of what is laid. `trial`: value of the fresh property that analysis.staged.least names.
+  /// Static solve of what is laid. `trial`: value of the fresh property that analysis.staged.least names, for
+  /// a verdict only.
   StaticSolution solve(std::optional<double> trial = std::nullopt);
   /// Continues from the equilibrium that solve() found last, if analysis.staged.carry.
   void accept(const StaticSolution& solution);
@@ -61,6 +62,11 @@ class Construction {
   /// m: by which the most compressed fresh head joint has closed since it was laid, in the equilibrium of the
   /// last solve.
   double head_squeeze(const StaticSolution& solution) const;
+  /// m: largest displacement of a block since it was laid, in the equilibrium of the last solve.
+  double displacement(const StaticSolution& solution) const;
+  /// The contact of the last solve with the largest violation of its law, if that exceeds `worst`.
+  std::optional<LawViolation> violation_above(const std::optional<LawViolation>& worst,
+                                              const StaticSolution& solution, double time) const;
   bool any_free() const;
 
  private:

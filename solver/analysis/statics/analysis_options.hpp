@@ -9,8 +9,8 @@ namespace cupola {
 StaticOptions static_options(const Analysis& analysis);
 /// Options of the static start of a motion.
 StaticOptions start_options(const Analysis& analysis);
-/// Options of static solves of which the verdict counts: trials of a limit analysis, stages of a
-/// construction.
+/// Options of static solves of which only the verdict counts: trials of a limit analysis and of the searches
+/// in a construction.
 StaticOptions verdict_options(const Analysis& analysis);
 
 /// True if a limit analysis computes its critical value by conic programmes instead of bisection.

@@ -12,16 +12,20 @@
 // The verdict on motions is in proximal_verdict.cpp.
 
 namespace cupola {
+namespace {
+
+constexpr double kLonger = 30.0;  // the usual first step suits structures that settle under all their weight
+
+}  // namespace
 
 ComingToRest::ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
-                           const ContactMemories& memories, const StaticOptions& options)
-    : ProximalPoint(model, start, contacts, memories, options, {40, 1e-4, 1e-3}) {}
+                           const ContactMemories& memories, const StaticOptions& options, Start from)
+    : ProximalPoint(model, start, contacts, memories, options,
+                    {40, 1e-4, 1e-3, from == Start::nearby ? kLonger : 1.0}) {}
 
 bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
-  constexpr double kLonger = 30.0;  // the first step suits structures that settle under all their weight
-  if (first_rigid_contact(step_.problem)) return false;
-  set_step(std::min(largest_h_, kLonger * trial_.h));
   const ContactProblem& problem = step_.problem;
+  if (first_rigid_contact(problem)) return false;
   x_.v = VecX::Zero(problem.v_star.size());
   for (const int block : new_blocks) {
     Mat6 H = problem.M[block];

@@ -12,8 +12,10 @@ namespace cupola {
 /// control each iteration also finds its time (length_control.hpp).
 class ComingToRest : public ProximalPoint {
  public:
+  /// How far the equilibrium may be. Nearby: the first step is long.
+  enum class Start { afar, nearby };
   ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
-               const ContactMemories& memories, const StaticOptions& options);
+               const ContactMemories& memories, const StaticOptions& options, Start from = Start::afar);
 
   /// Starts from the displacements and forces of another solve of the same scene.
   void start_from(const StaticSolution& other) {

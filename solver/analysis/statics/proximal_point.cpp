@@ -40,7 +40,8 @@ ProximalPoint::ProximalPoint(const Model& model, const State& start, const Conta
       acceleration_(reference_acceleration(model, start)),
       largest_h_(largest_static_step(model, start, contacts)),
       pace_(pace) {
-  set_step(first_static_step(model, start, contacts, acceleration_, options));
+  const double h = first_static_step(model, start, contacts, acceleration_, options);
+  set_step(pace.first_step == 1.0 ? h : std::min(largest_h_, pace.first_step * h));
 }
 
 /// Sets h and converts the last iterate: d = h v and F = gamma / h stay.

@@ -29,10 +29,11 @@ class ProximalPoint {
 
  protected:
   /// How accurate a contact solve must be while the residual is large: the smaller of `coarse` and `share` of
-  /// the residual, as an inexact proximal-point method requires.
+  /// the residual, as an inexact proximal-point method requires. The first step is
+  /// `first_step` times that of first_static_step(), as far as the compliance permits.
   struct Pace {
     int max_solves;
-    double coarse, share;
+    double coarse, share, first_step = 1.0;
   };
   ProximalPoint(const Model& model, const State& start, const ContactSet& contacts,
                 const ContactMemories& memories, const StaticOptions& options, const Pace& pace);

@@ -99,12 +99,21 @@ FrameRole stage_role(StaticOutcome outcome) {
   return outcome == StaticOutcome::moving ? FrameRole::failed_stage : FrameRole::stage;
 }
 
+void summarize_accuracy(const StaticSolution& solution, double tolerance, Summary* summary) {
+  summary->accuracy = force_balance_accuracy(solution, tolerance);
+  summary->certified_force_error = solution.certificate.force_error;
+  summary->forces_unique = solution.certificate.forces_unique;
+  if (summary->certified_force_error.bounds.empty())
+    summary->certified_force_error.bounds = "no equilibrium was found";
+  if (summary->forces_unique.reason.empty()) summary->forces_unique = {false, "no equilibrium was found"};
+}
+
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
                       double tolerance, Summary* summary) {
   summarize_frame(frame, model, summary);
+  summarize_accuracy(solution, tolerance, summary);
   summary->status = status_of(solution.outcome, solution.proven);
   summary->message = solution.message;
-  summary->accuracy = force_balance_accuracy(solution, tolerance);
   summary->iterations = solution.iterations;
   summary->steps = 1;
   summary->time_step_s = solution.h;
@@ -112,11 +121,6 @@ void summarize_static(const StaticSolution& solution, const Frame& frame, const 
   summary->momentum_residual = solution.residuals.momentum;
   summary->contact_law_residual = solution.residuals.contact_law;
   summary->friction_cone_violation = solution.residuals.cone_violation;
-  summary->certified_force_error = solution.certificate.force_error;
-  summary->forces_unique = solution.certificate.forces_unique;
-  if (summary->certified_force_error.bounds.empty())
-    summary->certified_force_error.bounds = "no equilibrium was found";
-  if (summary->forces_unique.reason.empty()) summary->forces_unique = {false, "no equilibrium was found"};
   summary->largest_law_violation = largest_violation(frame);
   // A motion has no amplitude, and of an unconverged solve nothing is known.
   summary->max_displacement_m.reset();

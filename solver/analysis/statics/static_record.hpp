@@ -28,6 +28,9 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
 /// Role of the frame of a stage of construction.
 FrameRole stage_role(StaticOutcome outcome);
 
+/// Sets the fields of the summary that say how accurate the forces of a static solve are.
+void summarize_accuracy(const StaticSolution& solution, double tolerance, Summary* summary);
+
 /// Sets the fields of the summary that follow from a static solve and its frame.
 void summarize_static(const StaticSolution& solution, const Frame& frame, const Model& model,
                       double tolerance, Summary* summary);

@@ -146,7 +146,7 @@ StaticSolution solve_nearby(const Model& model, const State& start, const Contac
     return {};
   StaticOptions few = options;
   few.solve.max_iterations = std::min(options.solve.max_iterations.value_or(kIterations), kIterations);
-  ComingToRest nearby(model, start, contacts, memories, few);
+  ComingToRest nearby(model, start, contacts, memories, few, ComingToRest::Start::nearby);
   return nearby.start_from_rest(*options.new_blocks) ? nearby.run() : StaticSolution{};
 }
 

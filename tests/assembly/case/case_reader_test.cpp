@@ -114,6 +114,14 @@ TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {
   EXPECT_FALSE(c.geometry.stage);
 }
 
+TEST(ReadCase, StagesHaveAToleranceOfTheirOwnUnlessOneIsGiven) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("wall.yaml", kWall);
+  EXPECT_EQ(read_case(path, {"analysis.type=staged"}).analysis.tolerance, 1e-5);
+  EXPECT_EQ(read_case(path, {"analysis.type=staged", "analysis.tolerance=1e-9"}).analysis.tolerance, 1e-9);
+  EXPECT_EQ(read_case(path).analysis.tolerance, Analysis{}.tolerance);
+}
+
 TEST(ReadCase, APresetSetsTheTolerance) {
   const ScratchFolder scratch;
   const std::string own = std::string(kWall) + "analysis: {tolerance: 1e-7}\n";

@@ -68,6 +68,7 @@ TEST(Construction, CarriedStagesTakeOneSolve) {
     if (line.starts_with("stage")) of_stages.push_back(std::exchange(solves, 0));
   };
   Case scene = course_case(38.7 * kDeg, 0.2);
+  scene.analysis.tolerance = 1e-5;
   scene.analysis.staged.carry = true;
   scene.analysis.staged.fresh.cohesion = 2000.0;
   const Built built = build(scene, make_course({.bricks = 3, .courses = 2}), sinks);
@@ -75,6 +76,26 @@ TEST(Construction, CarriedStagesTakeOneSolve) {
   ASSERT_EQ(of_stages.size(), 6u);
   for (size_t stage = 1; stage < of_stages.size(); ++stage)  // before stage 0 the course below is solved
     EXPECT_EQ(of_stages[stage], 1) << "stage " << stage;
+}
+
+// Stages balance as accurately as the case asks, by courses and by blocks.
+TEST(Construction, StagesObeyTheTolerance) {
+  const Assembly courses = make_course({.bricks = 3, .courses = 2});
+  for (const bool by_blocks : {false, true})
+    for (const double tolerance : {1e-4, 1e-8}) {
+      Case scene = course_case(38.7 * kDeg, 0.9);
+      scene.analysis.tolerance = tolerance;
+      scene.analysis.staged.critical_friction = false;
+      scene.analysis.staged.fresh.cohesion = 2000.0;
+      if (!by_blocks) {
+        scene.analysis.staged.unit = StagedConstruction::Unit::ring;
+        scene.analysis.staged.carry = false;
+      }
+      const Summary summary = build(scene, courses).summary;
+      ASSERT_EQ(summary.status, Status::stable) << summary.message;
+      EXPECT_EQ(summary.accuracy.asked, tolerance);
+      EXPECT_LE(summary.accuracy.worst_over_run, tolerance);
+    }
 }
 
 // Two courses below the course laid, instead of all, change neither the verdict nor the cohesion; a stack of

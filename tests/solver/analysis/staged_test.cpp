@@ -6,6 +6,7 @@
 #include "assembly/base/error.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/stages.hpp"
+#include "solver/runtime/threads.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::staged_test {
@@ -24,10 +25,11 @@ struct StagedResult {
   std::vector<std::vector<std::string>> rows;  // of stages.csv, without the header
 };
 
-StagedResult run(const Case& scene, const Assembly& assembly) {
+StagedResult run(const Case& scene, const Assembly& assembly, std::vector<std::string>* log = nullptr) {
   StagedResult result;
   std::string table;
   AnalysisSinks sinks;
+  if (log != nullptr) sinks.log = [log](const std::string& line) { log->push_back(line); };
   sinks.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
   sinks.table = [&](const std::string&, const std::string& text) { table = text; };
   result.summary = run_staged(scene, assembly, sinks).value();
@@ -156,6 +158,27 @@ TEST(Staged, RefusesAFirstRingAboveTheLast) {
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 7;
   EXPECT_THROW(run(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3)), InputError);
+}
+
+// Threads solve whole stages; what is recorded, and in which order, does not depend on them.
+TEST(Staged, IsTheSameOnAnyNumberOfThreads) {
+  const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 6);
+  Case scene = staged_case(0.7, 0.31);
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  std::vector<StagedResult> results;
+  std::vector<std::vector<std::string>> logs;
+  for (const int threads : {1, 3}) {
+    set_num_threads(threads);
+    results.push_back(run(scene, wall, &logs.emplace_back()));
+  }
+  set_num_threads(1);
+  EXPECT_EQ(results[0].rows, results[1].rows);
+  EXPECT_EQ(results[0].summary.message, results[1].summary.message);
+  EXPECT_EQ(logs[0], logs[1]);
+  ASSERT_EQ(results[0].frames.size(), 6u);
+  ASSERT_EQ(results[1].frames.size(), 6u);
+  for (size_t k = 0; k < 6; ++k)
+    EXPECT_EQ(results[0].frames[k].contacts.force, results[1].frames[k].contacts.force);
 }
 
 }  // namespace
