@@ -35,6 +35,18 @@ void check_blocks(const Frame& frame, const Assembly& assembly) {
                                  counted(frame.blocks.size(), "block"), assembly.blocks.size()));
 }
 
+void check_joints(const std::vector<ForceRange>& ranges, const Assembly& assembly) {
+  const auto exists = [&](int block) {
+    return block >= 0 && block < static_cast<int>(assembly.blocks.size());
+  };
+  for (const ForceRange& range : ranges)
+    if (range.joint && !(exists(range.joint->first) && exists(range.joint->second)))
+      throw InputError(
+          fmt::format("the results hold a range of joint {}-{}, and the assembly {}: solve this "
+                      "assembly again",
+                      range.joint->first, range.joint->second, counted(assembly.blocks.size(), "block")));
+}
+
 /// Displaces the blocks of a mechanism along their velocities until the fastest has moved by kShown times the
 /// size of the model.
 void displace_mechanism(const Assembly& assembly, Frame* frame) {
@@ -305,6 +317,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.scene = scene;
   e.assembly = std::move(assembly);
   e.summary = results.summary();
+  check_joints(e.summary.ranges, e.assembly);
   e.times = results.times();
   if (scene.loads.gravity.norm() > 0.0) e.up = -scene.loads.gravity.normalized();
   Frame shown = evaluated_frame(results, &e);

@@ -35,7 +35,7 @@ TEST(RangeSentence, StatesCertainLimitsAndTheChosenValue) {
 TEST(RangeSentence, NamesUnconvergedEndsAndLooseBounds) {
   EXPECT_EQ(
       range_sentence(test::some_ranges()[3]),
-      "The normal force of joint 12-13 is at most 4.8 kN for every history of the building that the friction "
+      "The normal force of joint 2-3 is at most 4.8 kN for every history of the building that the friction "
       "admits; it has an unknown minimum, because the search did not converge beyond a state with 0.15 kN; "
       "it attains 4 kN in the state found for the maximum.");
 }
@@ -92,6 +92,20 @@ TEST(RangeReport, LeadsWithTheRangesAndSaysWhatIsCertainChosenAndAssumed) {
   }
   EXPECT_NE(read_text(post + "/ranges.csv").find("hoop force of ring 1,N,-300000,100000,inf"),
             std::string::npos);
+}
+
+TEST(RangeReport, AJointThatTheModelDoesNotHaveIsAnError) {
+  const Assembly a = test::column(3);
+  Summary summary = test::range_summary(a);
+  summary.ranges.back().joint = std::pair{2, 4};
+  try {
+    test::analysed_column("range_joint", test::range_frames(a), summary);
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a range of joint 2-4, and the assembly 4 blocks"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(RangeReport, WithoutACompliantStateNothingIsChosen) {
