@@ -26,9 +26,8 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
+using FaceNumbers = SurfaceMesh::Property_map<SurfaceMesh::Face_index, int>;
 using Polygons = std::vector<std::vector<std::size_t>>;
-
-constexpr const char* kFaceOfFile = "f:face_of_file";
 
 [[noreturn]] void fail(const RawBlock& block, const std::string& message) {
   throw InputError(block.where, fmt::format("block {}: {}", block.name, message));
@@ -115,9 +114,8 @@ Soup triangle_soup(const PolygonMesh& mesh) {
   return soup;
 }
 
-TriangleMesh to_triangles(const SurfaceMesh& surface) {
+TriangleMesh to_triangles(const SurfaceMesh& surface, const FaceNumbers& face_of_file) {
   TriangleMesh mesh;
-  const auto [face_of_file, known] = surface.property_map<SurfaceMesh::Face_index, int>(kFaceOfFile);
   std::vector<int> id(surface.num_vertices(), -1);
   for (const auto v : surface.vertices()) {
     id[v] = static_cast<int>(mesh.vertices.size());
@@ -129,7 +127,7 @@ TriangleMesh to_triangles(const SurfaceMesh& surface) {
     int i = 0;
     for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface)) triangle.at(i++) = id[v];
     mesh.triangles.push_back(triangle);
-    if (known) mesh.polygons.push_back(face_of_file[f]);
+    mesh.polygons.push_back(face_of_file[f]);
   }
   return mesh;
 }
@@ -152,7 +150,8 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
   SurfaceMesh surface;
   pmp::polygon_soup_to_polygon_mesh(points, soup.polygons, surface);
   CUPOLA_ASSERT(surface.number_of_faces() == soup.face.size());
-  auto face_of_file = surface.add_property_map<SurfaceMesh::Face_index, int>(kFaceOfFile, -1).first;
+  FaceNumbers face_of_file =
+      surface.add_property_map<SurfaceMesh::Face_index, int>("f:face_of_file", -1).first;
   for (const auto f : surface.faces()) face_of_file[f] = soup.face[f];
   int open_edges = 0;
   for (const auto edge : surface.edges()) open_edges += surface.is_border(edge) ? 1 : 0;
@@ -164,7 +163,7 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
     pmp::reverse_face_orientations(surface);
   }
   surface.collect_garbage();
-  return to_triangles(surface);
+  return to_triangles(surface, face_of_file);
 }
 
 TriangleMesh hull_mesh(const RawBlock& block, std::span<const Vec3> points) {
