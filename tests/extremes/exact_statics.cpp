@@ -234,7 +234,7 @@ VectorOf<long double> near_equilibrium(const StaticEnergy<long double>& energy, 
 }  // namespace
 
 ExactStatics solve_exact_statics(const Case& scene, const Assembly& assembly) {
-  constexpr double kExact = 1e-16;  // forces are returned in double precision
+  constexpr double kRounding = 1e-16;  // forces are returned in double precision
   const Model model = make_model(scene, assembly);
   const State rest = state_at_rest(model);
   const ContactSet contacts = ContactDetector(assembly, detection_options(scene)).update(rest.poses);
@@ -243,8 +243,8 @@ ExactStatics solve_exact_statics(const Case& scene, const Assembly& assembly) {
   VectorOf<Quad> d =
       near_equilibrium(make_static_energy<long double>(model, rest, contacts), &result.iterations)
           .cast<Quad>();
-  result.residual = minimise(energy, kExact, 60, &d, &result.iterations);
-  result.found = result.residual <= kExact;
+  result.residual = minimise(energy, kRounding, 60, &d, &result.iterations);
+  result.found = result.residual <= kRounding;
   for (size_t i = 0; i < energy.springs.size(); ++i) {
     const Triple<Quad> gamma = energy.springs[i].force(energy.opening(energy.springs[i], d));
     result.forces.push_back(contact_frame(contacts.points[i].normal) * gamma.cast<double>());

@@ -95,6 +95,7 @@ TEST(Wythes, HeadersShareTheLoadOfALeaf) {
       EXPECT_NEAR(sum.share, 0.5, 1e-3) << "the headers are loaded in their middle";
     }
     EXPECT_NEAR(vertical, ring.joint_force.z(), 1e-12 * vertical) << "rounding of the sums";
+    EXPECT_NEAR(outward, ring.radial_thrust, 1e-12 * vertical) << "rounding of the sums";
     EXPECT_NEAR(share, 1.0, 1e-12);
   }
   // One map per leaf; a header is in both.
