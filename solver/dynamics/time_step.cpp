@@ -9,6 +9,7 @@
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/known_motion.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -46,14 +47,18 @@ void set_row(const Model& model, const State& state, int row, int block_a, int b
 }
 
 void set_rows(const Model& model, const State& state, const ContactSet& contacts, StepProblem* step) {
-  for (int i = 0; i < static_cast<int>(contacts.points.size()); ++i) {
-    const Contact& contact = contacts.points[i];
-    CUPOLA_ASSERT(contact.block_a < contact.block_b);
-    // One point for both bodies, so that action and reaction have no net moment across a gap.
-    const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
-    set_row(model, state, i, contact.block_a, contact.block_b, point, point, contact_frame(contact.normal),
-            &step->problem);
-  }
+  constexpr double kOperationsPerContact = 200.0;
+  const auto nc = static_cast<int>(contacts.points.size());
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const Contact& contact = contacts.points[i];
+      CUPOLA_ASSERT(contact.block_a < contact.block_b);
+      // One point for both bodies, so that action and reaction have no net moment across a gap.
+      const Vec3 point = 0.5 * (contact.point_a + contact.point_b);
+      set_row(model, state, i, contact.block_a, contact.block_b, point, point, contact_frame(contact.normal),
+              &step->problem);
+    }
+  });
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
     const TieGeometry now = tie_geometry(tie, state.poses);

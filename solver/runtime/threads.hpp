@@ -1,11 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <barrier>
+#include <cstdint>
 #include <exception>
 #include <latch>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace cupola {
@@ -38,13 +41,16 @@ class Team {
   int size_;
 };
 
+/// True on the threads of a team, whose own teams have one thread.
+inline thread_local bool inside_team = false;
+
 /// Runs program(team, thread) on num_threads() threads including the calling one, or only on the calling one
-/// if `work` (floating-point operations) is too small for more. If the system cannot start that many threads,
-/// it uses those that could be started. The program must not throw.
+/// if `work` (floating-point operations) is too small for more, or if it belongs to a team already. If the
+/// system cannot start that many threads, it uses those that could be started. The program must not throw.
 template <class Program>
 void run_team(double work, const Program& program) {
-  constexpr double kMinWork = 1e8;  // takes a few hundredths of a second
-  const int size = work < kMinWork ? 1 : num_threads();
+  constexpr double kMinWork = 1e7;  // takes some milliseconds, a thread a tenth of one to start
+  const int size = work < kMinWork || inside_team ? 1 : num_threads();
   std::optional<Team> team;
   std::latch complete(1);
   std::vector<std::jthread> others;  // joined before the team is destroyed
@@ -53,13 +59,16 @@ void run_team(double work, const Program& program) {
     for (int thread = 1; thread < size; ++thread)
       others.emplace_back([&program, &team, &complete, thread] {
         complete.wait();
+        inside_team = true;
         program(*team, thread);
       });
   } catch (const std::exception&) {  // no memory or process limit: the threads started so far do the work
   }
   team.emplace(1 + static_cast<int>(others.size()));
   complete.count_down();
+  const bool nested = std::exchange(inside_team, inside_team || size > 1);
   program(*team, 0);
+  inside_team = nested;
 }
 
 /// Returns freed memory to the system. Each thread allocates from its own heap, which is otherwise kept after
@@ -82,6 +91,26 @@ void share_loop(double work, int count, const Body& body) {
   });
   for (const std::exception_ptr& error : thrown)
     if (error) std::rethrow_exception(error);
+}
+
+/// Calls body(first, last) for pieces of [0, count) on a team.
+template <class Body>
+void share_range(double work, int count, const Body& body) {
+  constexpr int kPieces = 64;
+  const int pieces = std::min(count, kPieces);
+  const auto bound = [&](int k) { return static_cast<int>(std::int64_t{count} * k / pieces); };
+  share_loop(work, pieces, [&](int k) { body(bound(k), bound(k + 1)); });
+}
+
+/// Calls body(first, last) on every thread of a team, for the range of [0, count) that it owns. A body that
+/// visits the terms of sums in order, and adds to the sums of its range only, gives the same bits for any
+/// number of threads. It must not throw.
+template <class Body>
+void share_sums(double work, int count, const Body& body) {
+  run_team(work, [&](Team& team, int thread) {
+    const auto bound = [&](int k) { return static_cast<int>(std::int64_t{count} * k / team.size()); };
+    body(bound(thread), bound(thread + 1));
+  });
 }
 
 }  // namespace cupola

@@ -62,13 +62,9 @@ BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& 
   BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
   CUPOLA_ASSERT(std::ssize(G) == problem.num_contacts());
   CUPOLA_ASSERT(std::ssize(graph.pair_of_contact) == problem.num_contacts());
-  // Each thread visits all contacts and adds to its own range of blocks, so the order of the sums does not
-  // depend on the number of threads.
+  // Each thread visits all contacts and adds to its own range of blocks.
   constexpr double kOperationsPerContact = 1000.0;
-  run_team(kOperationsPerContact * problem.num_contacts(), [&](Team& team, int thread) {
-    const auto nb = static_cast<std::int64_t>(problem.num_blocks());
-    const auto first = static_cast<int>(nb * thread / team.size());
-    const auto last = static_cast<int>(nb * (thread + 1) / team.size());
+  share_sums(kOperationsPerContact * problem.num_contacts(), problem.num_blocks(), [&](int first, int last) {
     const auto in_range = [&](int block) { return first <= block && block < last; };  // false for kFixed
     for (int i = 0; i < problem.num_contacts(); ++i) {
       if (G[i].isZero(0.0)) continue;
@@ -94,16 +90,20 @@ BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& 
 VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x) {
   CUPOLA_ASSERT(x.size() == 6 * pattern.num_blocks());
   VecX result(x.size());
-  for (int k = 0; k < pattern.num_blocks(); ++k) {
-    result.segment<6>(6 * k).noalias() = matrix.diagonal[k] * x.segment<6>(6 * k);
-  }
-  for (int column = 0; column < pattern.num_blocks(); ++column) {
-    for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
-      const int row = pattern.row[p];
-      result.segment<6>(6 * row).noalias() += matrix.lower[p] * x.segment<6>(6 * column);
-      result.segment<6>(6 * column).noalias() += matrix.lower[p].transpose() * x.segment<6>(6 * row);
+  constexpr double kOperationsPerPair = 144.0;
+  share_sums(kOperationsPerPair * pattern.num_pairs(), pattern.num_blocks(), [&](int first, int last) {
+    const auto in_range = [&](int block) { return first <= block && block < last; };
+    for (int k = first; k < last; ++k)
+      result.segment<6>(6 * k).noalias() = matrix.diagonal[k] * x.segment<6>(6 * k);
+    for (int column = 0; column < last; ++column) {
+      for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
+        const int row = pattern.row[p];
+        if (in_range(row)) result.segment<6>(6 * row).noalias() += matrix.lower[p] * x.segment<6>(6 * column);
+        if (in_range(column))
+          result.segment<6>(6 * column).noalias() += matrix.lower[p].transpose() * x.segment<6>(6 * row);
+      }
     }
-  }
+  });
   return result;
 }
 

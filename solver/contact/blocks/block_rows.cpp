@@ -13,16 +13,7 @@ namespace {
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
-/// Calls body(first, last) for pieces of the rows, on as many threads as `work` (operations) justifies.
-template <class Body>
-void share_rows(double work, int num_rows, const Body& body) {
-  constexpr int kPieces = 64;
-  const int pieces = std::min(num_rows, kPieces);
-  share_loop(work, pieces, [&](int k) {
-    const auto bound = [&](int piece) { return static_cast<int>(std::int64_t{num_rows} * piece / pieces); };
-    body(bound(k), bound(k + 1));
-  });
-}
+constexpr double kOperationsPerEntry = 72.0;  // of a product with a vector
 
 /// Columns of row i of A B, ascending. `seen_in` marks the columns found so far by the number of the row.
 void columns_of_product(const BlockRows& A, const BlockRows& B, int i, std::vector<int>* seen_in,
@@ -44,14 +35,15 @@ template <class Scalar>
 VecX product(const BlockRowsOf<Scalar>& A, const VecX& x) {
   CUPOLA_ASSERT(x.size() == 6 * A.num_columns);
   VecX y(6 * A.num_rows());
-  share_rows(72.0 * static_cast<double>(A.value.size()), A.num_rows(), [&](int first, int last) {
-    for (int i = first; i < last; ++i) {
-      Vec6 sum = Vec6::Zero();
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-        sum.noalias() += A.value[k].template cast<double>() * x.segment<6>(6 * A.column[k]);
-      y.segment<6>(6 * i) = sum;
-    }
-  });
+  share_range(kOperationsPerEntry * static_cast<double>(A.value.size()), A.num_rows(),
+              [&](int first, int last) {
+                for (int i = first; i < last; ++i) {
+                  Vec6 sum = Vec6::Zero();
+                  for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+                    sum.noalias() += A.value[k].template cast<double>() * x.segment<6>(6 * A.column[k]);
+                  y.segment<6>(6 * i) = sum;
+                }
+              });
   return y;
 }
 
@@ -101,7 +93,7 @@ BlockRows multiply(const BlockRows& A, const BlockRows& B) {
   BlockRows C;
   C.num_columns = B.num_columns;
   C.start.assign(A.num_rows() + 1, 0);
-  share_rows(work, A.num_rows(), [&](int first, int last) {
+  share_range(work, A.num_rows(), [&](int first, int last) {
     std::vector<int> seen_in(B.num_columns, -1), columns;
     for (int i = first; i < last; ++i) {
       columns_of_product(A, B, i, &seen_in, &columns);
@@ -111,7 +103,7 @@ BlockRows multiply(const BlockRows& A, const BlockRows& B) {
   std::partial_sum(C.start.begin(), C.start.end(), C.start.begin());
   C.column.resize(C.start.back());
   C.value.resize(C.start.back());
-  share_rows(work, A.num_rows(), [&](int first, int last) {
+  share_range(work, A.num_rows(), [&](int first, int last) {
     std::vector<int> seen_in(B.num_columns, -1), columns, entry(B.num_columns);
     for (int i = first; i < last; ++i) {
       columns_of_product(A, B, i, &seen_in, &columns);
@@ -151,8 +143,11 @@ BlockRows transpose(const BlockRows& A) {
 
 SingleBlockRows in_single_precision(const BlockRows& A) {
   SingleBlockRows S{A.start, A.column, {}, A.num_columns};
-  S.value.reserve(A.value.size());
-  for (const Mat6& block : A.value) S.value.push_back(block.cast<float>());
+  S.value.resize(A.value.size());
+  const auto count = static_cast<int>(A.value.size());
+  share_range(kOperationsPerEntry * count, count, [&](int first, int last) {
+    for (int k = first; k < last; ++k) S.value[k] = A.value[k].cast<float>();
+  });
   return S;
 }
 

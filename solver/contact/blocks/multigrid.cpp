@@ -1,6 +1,7 @@
 #include "solver/contact/blocks/multigrid.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr int kCoarsest = 1500;  // blocks; a factorisation takes a few hundredths of a second
 constexpr int kPiece = 4096;     // rows that a sweep visits in sequence
-constexpr double kOperationsPerEntry = 72.0;
+constexpr double kOperationsPerInverse = 1000.0;
 /// Below this mean of the diagonal, where 1 is inertia, a level has no coarser one. In the collapse of 11,568
 /// bricks (means of 60 to 250) a step then takes 13 % less time, as sweeps need few CG iterations by
 /// themselves.
@@ -28,14 +29,17 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 /// Inverses of the diagonal blocks; empty if one of them is not positive definite.
 std::vector<Mat6> inverse_diagonal(const BlockRows& A) {
   std::vector<Mat6> inverse(A.num_rows());
-  for (int i = 0; i < A.num_rows(); ++i) {
-    int k = A.start[i];
-    while (A.column[k] != i) ++k;
-    const Eigen::LLT<Mat6> factor(A.value[k]);
-    if (factor.info() != Eigen::Success) return {};
-    inverse[i] = factor.solve(Mat6::Identity());
-    if (!inverse[i].allFinite()) return {};
-  }
+  std::atomic<bool> sound = true;
+  share_range(kOperationsPerInverse * A.num_rows(), A.num_rows(), [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      int k = A.start[i];
+      while (A.column[k] != i) ++k;
+      const Eigen::LLT<Mat6> factor(A.value[k]);
+      if (factor.info() == Eigen::Success) inverse[i] = factor.solve(Mat6::Identity());
+      if (factor.info() != Eigen::Success || !inverse[i].allFinite()) sound = false;
+    }
+  });
+  if (!sound) inverse.clear();
   return inverse;
 }
 
@@ -109,12 +113,14 @@ std::optional<AggregateMotions> aggregate_motions(const RigidMotions& motions, c
 /// P = (1 - 4/3 / lambda D^-1 A) T: smoothes the motions across the boundaries of the aggregates.
 BlockRows smoothed(const BlockRows& A, const std::vector<Mat6>& inverse, const BlockRows& T, double lambda) {
   BlockRows P = multiply(A, T);
-  for (int i = 0; i < A.num_rows(); ++i) {
-    for (int k = P.start[i]; k < P.start[i + 1]; ++k) {
-      P.value[k] = (-4.0 / 3.0 / lambda * inverse[i] * P.value[k]).eval();
-      if (P.column[k] == T.column[i]) P.value[k] += T.value[i];
+  share_range(kOperationsPerInverse * A.num_rows(), A.num_rows(), [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      for (int k = P.start[i]; k < P.start[i + 1]; ++k) {
+        P.value[k] = (-4.0 / 3.0 / lambda * inverse[i] * P.value[k]).eval();
+        if (P.column[k] == T.column[i]) P.value[k] += T.value[i];
+      }
     }
-  }
+  });
   return P;
 }
 
@@ -122,7 +128,8 @@ BlockRows smoothed(const BlockRows& A, const std::vector<Mat6>& inverse, const B
 template <class Body>
 void share_pieces(const SingleBlockRows& A, const Body& body) {
   const int n = A.num_rows();
-  share_loop(kOperationsPerEntry * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
+  constexpr double kOfEntry = 72.0;
+  share_loop(kOfEntry * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
              [&](int piece) { body(piece * kPiece, std::min(n, (piece + 1) * kPiece)); });
 }
 
@@ -204,7 +211,6 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     if (ends_in_sweeps_) {
       level.A = in_single_precision(A);
       levels_.push_back(std::move(level));
-      if (levels_.size() == 1) matrix_ = std::move(A);
       return true;
     }
     const Aggregates aggregates = aggregate_blocks(A, motions);
@@ -213,11 +219,10 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     if (!aggregated) return false;
     const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
     const BlockRows P = smoothed(A, level.inverse, aggregated->T, lambda), P_transposed = transpose(P);
-    BlockRows coarse = cupola::multiply(P_transposed, cupola::multiply(A, P));
+    BlockRows coarse = multiply(P_transposed, multiply(A, P));
     level.A = in_single_precision(A);
     level.P = in_single_precision(P);
     level.P_transposed = in_single_precision(P_transposed);
-    if (levels_.empty()) matrix_ = std::move(A);
     A = std::move(coarse);
     levels_.push_back(std::move(level));
     motions = std::move(aggregated->coarse);
@@ -241,10 +246,6 @@ bool Multigrid::factorize_coarsest(const BlockRows& A) {
   return coarsest_.factorize(pattern, matrix);
 }
 
-VecX Multigrid::multiply(const VecX& x) const {
-  return cupola::multiply(matrix_, x);
-}
-
 VecX Multigrid::cycle(std::size_t index, const VecX& r) const {
   CUPOLA_ASSERT(!levels_.empty());
   if (index == levels_.size()) return coarsest_.solve(r);
@@ -254,8 +255,8 @@ VecX Multigrid::cycle(std::size_t index, const VecX& r) const {
     complete_sweep(level.A, level.inverse, &x);
     return x;
   }
-  const VecX coarse = cupola::multiply(level.P_transposed, residual_after_sweep(level.A, x));
-  x += cupola::multiply(level.P, cycle(index + 1, coarse));
+  const VecX coarse = multiply(level.P_transposed, residual_after_sweep(level.A, x));
+  x += multiply(level.P, cycle(index + 1, coarse));
   sweep_backward(level.A, level.inverse, r, &x);
   return x;
 }

@@ -22,8 +22,8 @@ namespace cupola {
 /// Levels whose matrix is mostly inertia, as in motions with steps of milliseconds, need no coarser ones: the
 /// hierarchy ends there with a symmetric sweep.
 ///
-/// Matrices are read in single precision, in which they remain symmetric, because a cycle is memory-bound.
-/// Vectors, and the matrix that CG multiplies with, are in double precision.
+/// Matrices are kept in single precision, in which they remain symmetric, because a cycle is memory-bound.
+/// Vectors are in double precision.
 ///
 /// Runs on num_threads() threads, with the same bits for any number: sweeps work on pieces of fixed size.
 class Multigrid {
@@ -34,8 +34,6 @@ class Multigrid {
 
   /// One cycle: an approximation of the inverse times r, symmetric positive definite.
   VecX cycle(const VecX& r) const { return cycle(0, r); }
-  /// The matrix times x.
-  VecX multiply(const VecX& x) const;
 
  private:
   struct Level {
@@ -47,7 +45,6 @@ class Multigrid {
   VecX cycle(std::size_t level, const VecX& r) const;
   bool factorize_coarsest(const BlockRows& A);
 
-  BlockRows matrix_;
   std::vector<Level> levels_;
   bool ends_in_sweeps_ = false;  ///< the last level has no coarser one and no factor
   BlockCholesky coarsest_;

@@ -15,14 +15,19 @@
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 
 namespace {
 
 std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
-  std::vector<Mat3> G(p.num_contacts());
-  for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact_law(p, i), y.segment<3>(3 * i));
+  constexpr double kOperationsPerContact = 100.0;
+  const int nc = p.num_contacts();
+  std::vector<Mat3> G(nc);
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) G[i] = contact_stiffness(contact_law(p, i), y.segment<3>(3 * i));
+  });
   return G;
 }
 

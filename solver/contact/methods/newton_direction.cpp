@@ -67,7 +67,7 @@ bool NewtonDirection::solve_by_multigrid(const BlockPattern& pattern, const Bloc
   constexpr double kUsefulReduction = 0.1;
   Multigrid multigrid;
   if (!multigrid.build(pattern, H, motions)) return false;
-  return conjugate_gradients([&](const VecX& x) { return multigrid.multiply(x); },
+  return conjugate_gradients([&](const VecX& x) { return multiply(pattern, H, x); },
                              [&](const VecX& r) { return multigrid.cycle(r); }, rhs, forcing, kMaxIterations,
                              d, summary) <= std::max(kUsefulReduction, forcing);
 }

@@ -6,8 +6,15 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
+
+namespace {
+
+constexpr double kOperationsPerContact = 150.0;
+
+}  // namespace
 
 PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   CUPOLA_ASSERT(w.size() == 6 * p.num_blocks());
@@ -16,18 +23,29 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   point.y.resize(p.b.size());
   point.gamma.resize(p.b.size());
   const VecX momentum = point.w - p.v_star;
-  point.cost = 0.5 * momentum.squaredNorm();
   VecX impulse = VecX::Zero(momentum.size());
-  for (int i = 0; i < p.num_contacts(); ++i) {  // one pass, because reading D dominates the cost
-    const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
-    const ContactLaw law = contact_law(p, i);
-    const Vec3 gamma = contact_impulse(law, y);
-    add_impulse(p, i, gamma, &impulse);
-    point.y.segment<3>(3 * i) = y;
-    point.gamma.segment<3>(3 * i) = gamma;
+  // One pass, because reading D dominates the cost.
+  share_sums(kOperationsPerContact * p.num_contacts(), p.num_blocks(), [&](int first, int last) {
+    const auto in_range = [&](int block) { return first <= block && block < last; };
+    for (int i = 0; i < p.num_contacts(); ++i) {
+      const int a = p.block_a[i], b = p.block_b[i];
+      if (!in_range(a) && !in_range(b)) continue;
+      const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
+      const Vec3 gamma = contact_impulse(contact_law(p, i), y);
+      if (in_range(a)) impulse.segment<6>(6 * a).noalias() += p.D_a[i] * gamma;
+      if (in_range(b)) impulse.segment<6>(6 * b).noalias() += p.D_b[i] * gamma;
+      if (!in_range(a != ContactProblem::kFixed ? a : b)) continue;
+      point.y.segment<3>(3 * i) = y;
+      point.gamma.segment<3>(3 * i) = gamma;
+    }
+  });
+  point.cost = 0.5 * momentum.squaredNorm();
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const Vec3 gamma = point.gamma.segment<3>(3 * i);
     point.cost += 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
-    if (law.carries_shear()) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
-    if (!p.strength.empty()) point.cost -= gamma.dot(y + p.E.segment<3>(3 * i).cwiseProduct(gamma));
+    if (contact_law(p, i).carries_shear()) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
+    if (!p.strength.empty())
+      point.cost -= gamma.dot(point.y.segment<3>(3 * i) + p.E.segment<3>(3 * i).cwiseProduct(gamma));
   }
   point.gradient = momentum - impulse;
   for (int k = 0; k < p.num_blocks(); ++k) {
@@ -48,21 +66,28 @@ class Line {
         point_(point),
         dy_(relative_velocity(p, d)),
         slope0_(d.dot(point.gradient)),
-        dd_(d.squaredNorm()) {}
+        dd_(d.squaredNorm()),
+        terms_(p.num_contacts()) {}
 
   double slope0() const { return slope0_; }
 
   struct Derivatives {
     double slope, curvature;
   };
-  Derivatives at(double t) const {
+  Derivatives at(double t) {
+    const int nc = p_.num_contacts();
+    share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+      for (int i = first; i < last; ++i) {
+        const Vec3 dy = dy_.segment<3>(3 * i);
+        const ContactResponse contact =
+            contact_response(contact_law(p_, i), point_.y.segment<3>(3 * i) + t * dy, dy);
+        terms_[i] = {(contact.impulse - point_.gamma.segment<3>(3 * i)).dot(dy), contact.curvature};
+      }
+    });
     Derivatives result{slope0_ + t * dd_, dd_};
-    for (int i = 0; i < p_.num_contacts(); ++i) {
-      const Vec3 dy = dy_.segment<3>(3 * i);
-      const ContactResponse contact =
-          contact_response(contact_law(p_, i), point_.y.segment<3>(3 * i) + t * dy, dy);
-      result.slope -= (contact.impulse - point_.gamma.segment<3>(3 * i)).dot(dy);
-      result.curvature += contact.curvature;
+    for (const Derivatives& term : terms_) {  // in order: the same bits for any number of threads
+      result.slope -= term.slope;
+      result.curvature += term.curvature;
     }
     return result;
   }
@@ -73,6 +98,7 @@ class Line {
   VecX dy_;
   double slope0_;
   double dd_;
+  std::vector<Derivatives> terms_;  ///< of the contacts
 };
 
 }  // namespace
@@ -81,7 +107,7 @@ LineSearchResult line_search(const ContactProblem& p, const PrimalPoint& point, 
                              double slope_reduction) {
   constexpr int kMaxEvaluations = 60;  // enough for bisection alone to reach double precision
   CUPOLA_ASSERT(d.size() == point.w.size());
-  const Line line(p, point, d);
+  Line line(p, point, d);
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   LineSearchResult result{1.0, 0};
   while (result.evaluations < kMaxEvaluations) {

@@ -7,10 +7,13 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 
 namespace {
+
+constexpr double kOperationsPerContact = 72.0;  // of a product with D
 
 [[noreturn]] void reject(const std::string& message) {
   throw std::invalid_argument("contact problem: " + message);
@@ -93,14 +96,26 @@ std::string ContactProblem::defect() const {
 VecX relative_velocity(const ContactProblem& problem, const VecX& v) {
   CUPOLA_ASSERT(v.size() == 6 * problem.num_blocks());
   VecX u(3 * problem.num_contacts());
-  for (int i = 0; i < problem.num_contacts(); ++i) u.segment<3>(3 * i) = relative_velocity(problem, i, v);
+  const int nc = problem.num_contacts();
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) u.segment<3>(3 * i) = relative_velocity(problem, i, v);
+  });
   return u;
 }
 
 VecX generalized_impulse(const ContactProblem& problem, const VecX& gamma) {
   CUPOLA_ASSERT(gamma.size() == 3 * problem.num_contacts());
   VecX impulse = VecX::Zero(6 * problem.num_blocks());
-  for (int i = 0; i < problem.num_contacts(); ++i) add_impulse(problem, i, gamma.segment<3>(3 * i), &impulse);
+  const int nc = problem.num_contacts(), nb = problem.num_blocks();
+  share_sums(kOperationsPerContact * nc, nb, [&](int first, int last) {
+    const auto add = [&](int k, const Mat63& D, int i) {
+      if (first <= k && k < last) impulse.segment<6>(6 * k).noalias() += D * gamma.segment<3>(3 * i);
+    };
+    for (int i = 0; i < nc; ++i) {
+      add(problem.block_a[i], problem.D_a[i], i);
+      add(problem.block_b[i], problem.D_b[i], i);
+    }
+  });
   return impulse;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 
@@ -48,11 +49,14 @@ WhitenedProblem whiten(const ContactProblem& problem) {
   p.v_star = white.to_w(problem.v_star);
   p.D_a.resize(nc);
   p.D_b.resize(nc);
-  for (int i = 0; i < nc; ++i) {
-    const int a = p.block_a[i], b = p.block_b[i];
-    if (a != ContactProblem::kFixed) p.D_a[i] = white.L_inverse[a].lazyProduct(problem.D_a[i]);
-    if (b != ContactProblem::kFixed) p.D_b[i] = white.L_inverse[b].lazyProduct(problem.D_b[i]);
-  }
+  constexpr double kOperationsPerContact = 400.0;
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const int a = p.block_a[i], b = p.block_b[i];
+      if (a != ContactProblem::kFixed) p.D_a[i] = white.L_inverse[a].lazyProduct(problem.D_a[i]);
+      if (b != ContactProblem::kFixed) p.D_b[i] = white.L_inverse[b].lazyProduct(problem.D_b[i]);
+    }
+  });
   return white;
 }
 

@@ -53,7 +53,7 @@ int iterations_to_six_digits(const System& s, const Multigrid& multigrid) {
   const double target = 1e-12 * rz;
   int k = 0;
   for (; k < kMaxIterations && rz > target; ++k) {
-    const VecX Hp = multigrid.multiply(p);
+    const VecX Hp = multiply(s.graph.pattern, s.H, p);
     r -= rz / p.dot(Hp) * Hp;
     z = multigrid.cycle(r);
     const double next = r.dot(z);
