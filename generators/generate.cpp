@@ -175,7 +175,8 @@ Assembly generate(const Case& input, GenerateReport* report) {
 Assembly generate_again(const Case& input, Assembly assembly, const GenerateReport& report) {
   assembly.title = input.title;
   refuse_keys_without_effect(input, assembly);
-  return with_report(std::move(assembly), report, resolved_case(input, assembly));
+  const Case resolved = resolved_case(input, assembly);
+  return with_report(std::move(assembly), report, resolved);
 }
 
 bool have_same_blocks(const Case& a, const Case& b) {
