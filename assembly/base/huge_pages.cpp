@@ -1,5 +1,5 @@
 // Puts large arrays on pages of 2 MB wherever they lie. keep_freed_memory() does so for the first
-// 512 MB of the heap only. Sanitizers have an operator new of their own.
+// 256 MB of the heap only. Sanitizers have an operator new of their own.
 #if defined(__linux__) && !defined(CUPOLA_SANITIZED)
 
 #include <cerrno>

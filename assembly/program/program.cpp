@@ -25,7 +25,7 @@ namespace {
 
 // Sanitizers have an allocator of their own.
 #if defined(__GLIBC__) && !defined(CUPOLA_SANITIZED)
-constexpr int kReserve = 512 << 20;  // bytes of address space
+constexpr int kReserve = 256 << 20;  // bytes of address space
 constexpr int kKept = 256 << 20;     // bytes of freed memory
 
 bool is_unlimited(decltype(RLIMIT_AS) resource) {
