@@ -295,6 +295,8 @@ ExitCode solve_case(SolveRequest request) {
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
   if (!run.history.empty()) writer.write_text("history.csv", run.history);
   writer.write_summary(*summary);
+  // Only interrupted runs need it, and what it holds depends on the time at which it was saved.
+  std::filesystem::remove(checkpoint_path);
   if (!request.quiet) print_summary(*summary, request.verbose);
   return reached(summary->status) ? ExitCode::done : ExitCode::accuracy_not_reached;
 }

@@ -81,13 +81,17 @@ TEST(DiskFaults, OutputRemovedDuringAMotionStopsIt) {
   }
 }
 
-TEST(DiskFaults, ACheckpointOfAnotherAnalysisIsNotOffered) {
+TEST(DiskFaults, OnlyInterruptedRunsLeaveACheckpoint) {
   const WallFolder folder;
+  const std::string checkpoint = folder.file("results/checkpoint");
   ASSERT_EQ(folder.run(folder.solve + "results").code, 0);
-  ASSERT_TRUE(std::filesystem::exists(folder.file("results/checkpoint")));
-  // The static solve in the same folder has no checkpoint of its own.
+  EXPECT_FALSE(std::filesystem::exists(checkpoint));
+  folder.run("sh -c '" + folder.solve + "results --set analysis.duration=100 & first=$!; " +
+             "until [ -e results/checkpoint ]; do sleep 0.02; done; kill -9 $first; wait $first'");
+  EXPECT_TRUE(std::filesystem::exists(checkpoint));
+  // It is not offered to another analysis in the same folder.
   ASSERT_EQ(folder.run(folder.solve + "results --set analysis.type=static").code, 0);
-  EXPECT_FALSE(std::filesystem::exists(folder.file("results/checkpoint")));
+  EXPECT_FALSE(std::filesystem::exists(checkpoint));
 }
 
 TEST(DiskFaults, FilesOfKilledRunsAreRemoved) {

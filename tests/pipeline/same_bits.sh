@@ -1,6 +1,6 @@
 #!/bin/bash
 # Same input, same bits. Runs every case, variant and sweep member of tests/net (static, dynamic, staged, limit, range and
-# path analyses) through the three programs, and compares all files, checkpoints included, of repeated runs, one and two
+# path analyses) through the three programs, and compares all files, of repeated runs, one and two
 # threads, and other builds (debug, release, with sanitizers). Then interrupts and resumes a motion, a path and a building.
 #
 #   same_bits.sh BIN_FOLDER [OTHER_BIN_FOLDER ...]
