@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -27,18 +28,30 @@ std::string flags_of_mapping(const void* address) {
   return "";
 }
 
-// hg: the kernel was advised to use pages of 2 MB.
-TEST(KeptMemory, IsBackedByLargePages) {
+class LargePages : public testing::Test {
+ protected:
+  void SetUp() override {
 #ifdef CUPOLA_SANITIZED
-  GTEST_SKIP() << "sanitizers have an allocator of their own";
+    GTEST_SKIP() << "sanitizers have an allocator of their own";
 #endif
-  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled"))
-    GTEST_SKIP() << "the kernel has no large pages";
+    if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage/enabled"))
+      GTEST_SKIP() << "the kernel has no large pages";
+  }
+};
+
+// hg: the kernel was advised to use pages of 2 MB.
+TEST_F(LargePages, BackTheHeap) {
   keep_freed_memory();
   constexpr std::size_t kSize = std::size_t{8} << 20U;
   void* const chunk = std::malloc(kSize);
   const std::string flags = flags_of_mapping(static_cast<char*>(chunk) + kSize / 2);
   std::free(chunk);
+  EXPECT_NE(flags.find(" hg "), std::string::npos) << flags;
+}
+
+TEST_F(LargePages, BackArraysOutsideTheHeap) {
+  const std::vector<char> array(100U << 20U);  // above every threshold of the heap
+  const std::string flags = flags_of_mapping(&array[array.size() / 2]);
   EXPECT_NE(flags.find(" hg "), std::string::npos) << flags;
 }
 

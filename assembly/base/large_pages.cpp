@@ -11,14 +11,14 @@
 
 namespace {
 
-constexpr std::size_t kLargeArray = 4U << 20U;   // bytes
-constexpr std::uintptr_t kHugePage = 2U << 20U;  // bytes
+constexpr std::size_t kLargeArray = 4U << 20U;    // bytes
+constexpr std::uintptr_t kLargePage = 2U << 20U;  // bytes
 
 /// A kernel without such pages refuses, which changes nothing.
-void ask_for_huge_pages(const void* array, std::size_t size) {
+void ask_for_large_pages(const void* array, std::size_t size) {
   const auto start = reinterpret_cast<std::uintptr_t>(array);
-  const std::uintptr_t first = (start + kHugePage - 1) / kHugePage * kHugePage;
-  const std::uintptr_t end = (start + size) / kHugePage * kHugePage;
+  const std::uintptr_t first = (start + kLargePage - 1) / kLargePage * kLargePage;
+  const std::uintptr_t end = (start + size) / kLargePage * kLargePage;
   const int before = errno;
   if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
   errno = before;
@@ -34,7 +34,7 @@ void* operator new(std::size_t size) {
     handler();
     array = std::malloc(size > 0 ? size : 1);
   }
-  if (size >= kLargeArray) ask_for_huge_pages(array, size);
+  if (size >= kLargeArray) ask_for_large_pages(array, size);
   return array;
 }
 
