@@ -118,7 +118,15 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
     if (joint.patch.plane.normal.dot(shell.direction(reference_ring(assembly, joint))) < 0.0)
       std::swap(joint.upper, joint.lower);
   }
+  index_by_block(assembly.blocks.size(), &out);
   return out;
+}
+
+void index_by_block(size_t num_blocks, JointWrenches* joints) {
+  joints->of_block.assign(num_blocks, {});
+  for (size_t i = 0; i < joints->wrenches.size(); ++i)
+    for (const int block : {joints->wrenches[i].block_a, joints->wrenches[i].block_b})
+      joints->of_block[block].push_back(static_cast<int>(i));
 }
 
 WytheRange wythes_of(const Assembly& assembly, const Shell& shell, const Joint& joint) {

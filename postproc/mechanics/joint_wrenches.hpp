@@ -42,8 +42,9 @@ struct JointWrench : Joint {
 };
 
 struct JointWrenches {
-  std::vector<JointWrench> wrenches;  ///< in the order of the contacts' joint ids
-  std::vector<int> contacts;          ///< contact rows sorted by joint
+  std::vector<JointWrench> wrenches;       ///< in the order of the contacts' joint ids
+  std::vector<int> contacts;               ///< contact rows sorted by joint
+  std::vector<std::vector<int>> of_block;  ///< indices of the wrenches on each block, ascending
   Floor floor;
 };
 
@@ -52,6 +53,9 @@ struct JointWrenches {
 /// joint. `unbalanced`: N, see floor_of().
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
                              double unbalanced = 0.0);
+
+/// Fills of_block, as joint_wrenches does.
+void index_by_block(size_t num_blocks, JointWrenches* joints);
 
 /// The wythes in which a joint lies: those that both blocks occupy. Between two layers of the thickness,
 /// where they share none, those of the block in the higher ring; in one ring, of block_b.

@@ -19,20 +19,6 @@ namespace {
 /// coefficient up to 10.
 constexpr double kLeastNormalShare = 0.1;
 
-/// Per block, the bed and base joints under and over it.
-struct BedJoints {
-  std::vector<std::vector<const JointWrench*>> under, over;
-
-  explicit BedJoints(const ThrustInput& in)
-      : under(in.assembly->blocks.size()), over(in.assembly->blocks.size()) {
-    for (const JointWrench& joint : in.joints->wrenches) {
-      if (joint.upper < 0) continue;
-      under[joint.upper].push_back(&joint);
-      over[joint.lower].push_back(&joint);
-    }
-  }
-};
-
 /// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole
 /// thickness.
 struct Route {
@@ -40,13 +26,18 @@ struct Route {
   double width = 0.0;              // rad, of the strip
   std::optional<double> meridian;  // rad
   std::optional<int> wythe;
-  BedJoints beds;
-
-  /// The joints of a block on a bed: on the last one those over it.
-  const std::vector<const JointWrench*>& joints(const Shell& shell, int block, int bed) const {
-    return bed == shell.num_rings() ? beds.over[block] : beds.under[block];
-  }
 };
+
+/// The bed and base joints of a block on a bed: on the last one those over it, else those under it.
+std::vector<const JointWrench*> joints_on(const ThrustInput& in, int block, int bed) {
+  const bool over = bed == in.shell->num_rings();
+  std::vector<const JointWrench*> joints;
+  for (const int i : in.joints->of_block[block]) {
+    const JointWrench& joint = in.joints->wrenches[i];
+    if ((over ? joint.lower : joint.upper) == block) joints.push_back(&joint);
+  }
+  return joints;
+}
 
 /// Share of a block's width that lies in the strip.
 double overlap(const BlockBed& block, double center, double width) {
@@ -62,14 +53,16 @@ double overlap(const BlockBed& block, double center, double width) {
 Wrench wrench_through(const ThrustInput& in, int block, int bed) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  for (const Part& part : in.assembly->parts) {
-    if (part.block != block || part.ring < bed) continue;
-    const SolidProperties solid = solid_properties(*in.assembly, part);
+  const std::vector<Part>& parts = in.assembly->parts;
+  for (auto part = std::ranges::lower_bound(parts, block, {}, &Part::block);
+       part != parts.end() && part->block == block; ++part) {
+    if (part->ring < bed) continue;
+    const SolidProperties solid = solid_properties(*in.assembly, *part);
     w.add_force(solid.centroid, -in.assembly->blocks[block].density * solid.volume * in.gravity);
   }
   const ContactTable& c = *in.contacts;
-  for (const JointWrench& joint : in.joints->wrenches) {
-    if (joint.block_a != block && joint.block_b != block) continue;
+  for (const int j : in.joints->of_block[block]) {
+    const JointWrench& joint = in.joints->wrenches[j];
     const double sign = joint.block_b == block ? -1.0 : 1.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = in.joints->contacts[i];
@@ -84,8 +77,8 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
 Wrench wrench_onwards(const ThrustInput& in, int block) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  for (const JointWrench& joint : in.joints->wrenches)
-    if (joint.lower == block) w.add(wrench_on(joint, joint.upper));
+  for (const JointWrench* joint : joints_on(in, block, in.shell->num_rings()))
+    w.add(wrench_on(*joint, joint->upper));
   return w;
 }
 
@@ -149,10 +142,10 @@ bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, const Ro
 
 /// True if the bed force of a block cannot be shared among its wythes: it rests on, or is, a block through
 /// several.
-bool is_undivided(const ThrustInput& in, const Route& route, int block, int bed) {
+bool is_undivided(const ThrustInput& in, int block, int bed) {
   if (in.shell->wythes[block].count() == 1) return false;
   if (bed < in.shell->num_rings() && in.assembly->blocks[block].ring != bed) return true;
-  return std::ranges::any_of(route.joints(*in.shell, block, bed), [&](const JointWrench* joint) {
+  return std::ranges::any_of(joints_on(in, block, bed), [&](const JointWrench* joint) {
     return !joint->negligible && wythes_of(*in.assembly, *in.shell, *joint).count() > 1;
   });
 }
@@ -164,7 +157,7 @@ Wrench wrench_in_wythe(const ThrustInput& in, const Route& route, int block, int
   if (in.shell->wythes[block] == WytheRange{wythe, wythe + 1}) return wrench_at_bed(in, block, bed);
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  for (const JointWrench* joint : route.joints(*in.shell, block, bed))
+  for (const JointWrench* joint : joints_on(in, block, bed))
     if (wythes_of(*in.assembly, *in.shell, *joint).contains(wythe)) w.add(wrench_on(*joint, joint->upper));
   return w;
 }
@@ -184,7 +177,7 @@ Push push_of(const Wrench& w, const BlockBed& block, const Vec3& onwards) {
 /// From the contact points of its joints on the bed.
 Push push_at_points(const ThrustInput& in, const Route& route, int id, int bed, const BlockBed& block) {
   Bearing bearing;
-  for (const JointWrench* joint : route.joints(*in.shell, id, bed))
+  for (const JointWrench* joint : joints_on(in, id, bed))
     if (!route.wythe || wythes_of(*in.assembly, *in.shell, *joint).contains(*route.wythe))
       add_bearing(*joint, *in.joints, *in.contacts, block, &bearing);
   return {bearing.normal_force, bearing.share()};
@@ -205,7 +198,7 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed], route.axis)) {
     const double share = meridian ? overlap(block, *meridian, route.width) : 1.0;
     if (share <= 0.0) continue;
-    if (wythe && is_undivided(in, route, id, bed)) return false;
+    if (wythe && is_undivided(in, id, bed)) return false;
     if (wythe && !in.shell->wythes[id].contains(*wythe)) continue;
     const Wrench w = wythe ? wrench_in_wythe(in, route, id, bed) : wrench_at_bed(in, id, bed);
     if (w.force.norm() == 0.0) continue;
@@ -241,7 +234,7 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
   for (const auto& [id, block] : blocks_on(in.shell->beds[bed], route.axis)) {
     if (route.meridian && overlap(block, *route.meridian, route.width) <= 0.0) continue;
     if (!last && in.assembly->blocks[id].ring != bed) continue;
-    for (const JointWrench* of_block : route.joints(*in.shell, id, bed)) {
+    for (const JointWrench* of_block : joints_on(in, id, bed)) {
       const JointWrench& joint = *of_block;
       if (joint.negligible) continue;
       if (route.wythe && !wythes_of(*in.assembly, *in.shell, joint).contains(*route.wythe)) continue;
@@ -325,7 +318,7 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
   line.axis = input.assembly->axis_of(first);
   const std::vector<double>& widths = input.shell->block_width_rad;
   const double width = first < static_cast<int>(widths.size()) ? widths[first] : 0.0;
-  const Route route{line.axis, width, meridian, wythe, BedJoints(input)};
+  const Route route{line.axis, width, meridian, wythe};
   std::optional<WytheRange> wythes;
   if (wythe) wythes = WytheRange{*wythe, *wythe + 1};
   const int last = end < input.shell->num_rings() ? end - 1 : input.shell->num_rings();

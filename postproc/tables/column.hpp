@@ -87,6 +87,7 @@ Table make_table(const std::string& name, const std::string& title, const Column
     if (column.in_table) append_headers(column, &table.columns);
   for (const Row& row : rows) {
     std::vector<Table::Cell>& cells = table.rows.emplace_back();
+    cells.reserve(table.columns.size());
     for (const Column<Row>& column : columns)
       if (column.in_table) append_cells(column.value(row), &cells);
     CUPOLA_ASSERT(cells.size() == table.columns.size());

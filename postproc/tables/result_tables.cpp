@@ -79,10 +79,9 @@ Table joint_table(const Evaluation& e) {
 }
 
 Table block_table(const Evaluation& e) {
-  const Table table =
-      make_table("blocks", "Blocks: wrench from the ring below, shell forces, joints, displacement",
-                 block_columns(), block_rows(e, e.last));
-  return with_block_names(e.assembly, with_member_names(e.assembly, table));
+  Table table = make_table("blocks", "Blocks: wrench from the ring below, shell forces, joints, displacement",
+                           block_columns(), block_rows(e, e.last));
+  return with_block_names(e.assembly, with_member_names(e.assembly, std::move(table)));
 }
 
 Table thrust_table(const ThrustLine& line) {
@@ -114,12 +113,12 @@ Table tie_table(const Evaluation& e) {
 }
 
 Table section_table(const Evaluation& e, const SectionEvaluation& section) {
-  const Table table =
+  Table table =
       make_table(fmt::format("section_{:g}m", section.height),
                  fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m (ring {})",
                              section.height, section.ring),
                  section_columns(), section.resultants);
-  return with_member_names(e.assembly, table);
+  return with_member_names(e.assembly, std::move(table));
 }
 
 Table plane_table(const Evaluation& e, const PlaneCut& cut) {

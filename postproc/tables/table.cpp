@@ -11,11 +11,14 @@
 namespace cupola {
 namespace {
 
-std::string csv_cell(const Table::Cell& cell) {
-  if (const auto* number = std::get_if<double>(&cell))
-    return std::isnan(*number) ? "" : fmt::format("{}", *number);
-  if (const auto* count = std::get_if<int>(&cell)) return fmt::format("{}", *count);
-  return csv_text(std::get<std::string>(cell));
+void append_csv(const Table::Cell& cell, fmt::memory_buffer* out) {
+  if (const auto* number = std::get_if<double>(&cell)) {
+    if (!std::isnan(*number)) fmt::format_to(std::back_inserter(*out), "{}", *number);
+  } else if (const auto* count = std::get_if<int>(&cell)) {
+    fmt::format_to(std::back_inserter(*out), "{}", *count);
+  } else {
+    out->append(csv_text(std::get<std::string>(cell)));
+  }
 }
 
 /// With what LaTeX would interpret escaped.
@@ -43,8 +46,10 @@ std::string to_csv(const Table& table) {
     fmt::format_to(std::back_inserter(out), "{}{}", csv_text(table.columns[i].key),
                    end_of(i, table.columns.size()));
   for (const auto& row : table.rows)
-    for (size_t i = 0; i < row.size(); ++i)
-      fmt::format_to(std::back_inserter(out), "{}{}", csv_cell(row[i]), end_of(i, row.size()));
+    for (size_t i = 0; i < row.size(); ++i) {
+      append_csv(row[i], &out);
+      out.push_back(end_of(i, row.size()));
+    }
   return fmt::to_string(out);
 }
 

@@ -24,6 +24,7 @@ struct MeridianScene {
   MeridianScene(int rings, int blocks, double offset, double position, double outward, double upward)
       : assembly(test::ring_vault(rings, blocks, offset)), shell(shell_of(assembly, Vec3::UnitZ())) {
     from_below.resize(assembly.blocks.size());
+    index_by_block(assembly.blocks.size(), &joints);
     for (int k = 0; k < rings; ++k)
       for (const BedFacet& f : shell.beds[k]) {
         const Vec3 inner = 0.5 * (f.intrados_a + f.intrados_b), outer = 0.5 * (f.extrados_a + f.extrados_b);

@@ -157,6 +157,7 @@ struct Scene {
               across(push, ring));
         }
       }
+    index_by_block(assembly.blocks.size(), &joints);
   }
   ThrustInput input() const {
     return {&assembly, &shell, &contacts, &joints, wrenches_from_below(assembly, joints), {0, 0, -9.81}};
