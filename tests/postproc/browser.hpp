@@ -64,11 +64,15 @@ class Browser {
     send("Emulation.setEmulatedMedia", {{"features", Json::array({scheme})}});
   }
 
-  void open(const std::string& file) {
-    loaded_ = false;
-    send("Page.navigate", {{"url", "file://" + file}});
-    while (!loaded_ && running_) receive();
+  void open(const std::string& file) { open_address("file://" + file); }
+
+  /// An empty page of the first size without complaints; a page of before is gone.
+  void start_anew() {
+    resize(1280, 900, false);
+    open_address("about:blank");
+    complaints_.clear();
   }
+  bool runs() const { return running_; }
 
   /// The value of an expression of the page; a promise is awaited.
   Json value(const std::string& expression) {
@@ -89,6 +93,12 @@ class Browser {
   const std::vector<std::string>& complaints() const { return complaints_; }
 
  private:
+  void open_address(const std::string& address) {
+    loaded_ = false;
+    send("Page.navigate", {{"url", address}});
+    while (!loaded_ && running_) receive();
+  }
+
   void start(const std::string& profile) {
     int to[2], from[2];
     ASSERT_EQ(::pipe2(to, O_CLOEXEC) + ::pipe2(from, O_CLOEXEC), 0);

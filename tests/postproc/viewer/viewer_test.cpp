@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -42,11 +43,24 @@ std::string sliding_column(int num_frames) {
   return test::analysed_column("sliding", frames, summary);
 }
 
-/// Opens a report and waits until its view can be used. The page's variable `view` is the viewer.
-void open_view(const std::string& post, Browser* browser) {
-  browser->open(post + "/report.html");
-  browser->value("window.cupolaView.then((v) => { window.view = v; return true; })");
-}
+/// All tests share one Chromium, which takes seconds to start.
+class Viewer : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+    if (!browser || !browser->runs()) browser = std::make_unique<Browser>();
+    browser->start_anew();
+  }
+  static void TearDownTestSuite() { browser.reset(); }
+
+  /// Opens a report and waits until its view can be used. The page's variable `view` is the viewer.
+  static void open_view(const std::string& post) {
+    browser->open(post + "/report.html");
+    browser->value("window.cupolaView.then((v) => { window.view = v; return true; })");
+  }
+
+  static inline std::unique_ptr<Browser> browser;
+};
 
 /// Pixels of the picture that differ from its corner.
 constexpr const char* kDrawnPixels = R"js((() => {
@@ -59,41 +73,37 @@ constexpr const char* kDrawnPixels = R"js((() => {
   return drawn / (w * h);
 })())js";
 
-TEST(Viewer, DrawsTheModelWithoutComplaintInLightAndDark) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+TEST_F(Viewer, DrawsTheModelWithoutComplaintInLightAndDark) {
   const std::string post = column_at_rest();
-  Browser browser;
   for (const bool dark : {false, true})
     for (const int width : {1280, 390}) {
-      browser.resize(width, 900, dark);
-      open_view(post, &browser);
-      EXPECT_GT(browser.value(kDrawnPixels).get<double>(), 0.05) << width;
-      EXPECT_EQ(browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth"),
+      browser->resize(width, 900, dark);
+      open_view(post);
+      EXPECT_GT(browser->value(kDrawnPixels).get<double>(), 0.05) << width;
+      EXPECT_EQ(browser->value("document.documentElement.scrollWidth - document.documentElement.clientWidth"),
                 0)
           << width;
-      const std::string paper = browser.value("getComputedStyle(document.body).backgroundColor");
+      const std::string paper = browser->value("getComputedStyle(document.body).backgroundColor");
       EXPECT_EQ(paper == "rgb(255, 255, 255)", !dark) << paper;
-      browser.value("view.model.faces.visible = false");
-      EXPECT_LT(browser.value(kDrawnPixels).get<double>(), 0.01) << "the pixels were those of the blocks";
+      browser->value("view.model.faces.visible = false");
+      EXPECT_LT(browser->value(kDrawnPixels).get<double>(), 0.01) << "the pixels were those of the blocks";
     }
-  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
 }
 
-TEST(Viewer, AClickOnABlockShowsItsNumbersOfTheTable) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+TEST_F(Viewer, AClickOnABlockShowsItsNumbersOfTheTable) {
   const std::string post = column_at_rest();
-  Browser browser;
-  open_view(post, &browser);
-  const auto middle = browser.value(
+  open_view(post);
+  const auto middle = browser->value(
       "(() => { const r = view.stage.canvas.getBoundingClientRect(); return [r.x + r.width / 2, r.y + "
       "r.height / 2]; })()");
-  browser.click(middle[0], middle[1]);
-  const std::string heading = browser.value("document.querySelector('#view .numbers h3').textContent");
+  browser->click(middle[0], middle[1]);
+  const std::string heading = browser->value("document.querySelector('#view .numbers h3').textContent");
   ASSERT_TRUE(heading.starts_with("Block ")) << heading;
   const size_t block = std::stoul(heading.substr(6));
   const CsvFile csv = read_csv(post + "/blocks.csv");
   for (const char* key : {"weight_N", "resultant_N", "kern_use", "displacement_z_m"}) {
-    const auto shown = browser.value(
+    const auto shown = browser->value(
         fmt::format("Number(document.querySelector('#view [data-key={}]').dataset.value)", key));
     EXPECT_EQ(shown.is_null() ? std::nan("") : shown.get<double>(), csv.number(block, csv.column(key)))
         << key;
@@ -101,31 +111,28 @@ TEST(Viewer, AClickOnABlockShowsItsNumbersOfTheTable) {
 }
 
 // The worst joint is named in the text, and a click on it selects it in the picture.
-TEST(Viewer, LinksInTheTextSelectTheirJoint) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+TEST_F(Viewer, LinksInTheTextSelectTheirJoint) {
   const std::string post = column_at_rest();
-  Browser browser;
-  open_view(post, &browser);
-  const size_t joint =
-      std::stoul(browser.value("document.querySelector('li [data-joint]').dataset.joint").get<std::string>());
-  browser.value("document.querySelector('li [data-joint]').click()");
-  EXPECT_EQ(browser.value("document.querySelector('#view .numbers h3').textContent"),
+  open_view(post);
+  const size_t joint = std::stoul(
+      browser->value("document.querySelector('li [data-joint]').dataset.joint").get<std::string>());
+  browser->value("document.querySelector('li [data-joint]').click()");
+  EXPECT_EQ(browser->value("document.querySelector('#view .numbers h3').textContent"),
             fmt::format("Joint {}", joint));
   const CsvFile csv = read_csv(post + "/joints.csv");
-  EXPECT_EQ(browser.value("Number(document.querySelector('#view [data-key=edge_distance_m]').dataset.value)"),
-            csv.number(joint, csv.column("edge_distance_m")));
+  EXPECT_EQ(
+      browser->value("Number(document.querySelector('#view [data-key=edge_distance_m]').dataset.value)"),
+      csv.number(joint, csv.column("edge_distance_m")));
 }
 
-TEST(Viewer, EveryNumberOfEveryJointIsThatOfTheTable) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+TEST_F(Viewer, EveryNumberOfEveryJointIsThatOfTheTable) {
   const std::string post = column_at_rest();
   const CsvFile csv = read_csv(post + "/joints.csv");
-  Browser browser;
-  open_view(post, &browser);
-  const auto keys = browser.value("view.header.joint_columns.map((c) => c.key)");
+  open_view(post);
+  const auto keys = browser->value("view.header.joint_columns.map((c) => c.key)");
   EXPECT_GE(keys.size(), 15u);
   for (const std::string key : keys) {
-    const auto values = browser.value(fmt::format("Array.from(view.model.sets[0].get('{}'))", key));
+    const auto values = browser->value(fmt::format("Array.from(view.model.sets[0].get('{}'))", key));
     ASSERT_EQ(values.size(), csv.rows.size());
     for (size_t j = 0; j < csv.rows.size(); ++j) {
       const double expected = csv.number(j, csv.column(key));
@@ -135,38 +142,34 @@ TEST(Viewer, EveryNumberOfEveryJointIsThatOfTheTable) {
   }
 }
 
-TEST(Viewer, TheFilmOfAMotionAdvances) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(sliding_column(6), &browser);
-  EXPECT_EQ(browser.value("view.film.count"), 6);
+TEST_F(Viewer, TheFilmOfAMotionAdvances) {
+  open_view(sliding_column(6));
+  EXPECT_EQ(browser->value("view.film.count"), 6);
   const char* place =
       "view.film.show({}), view.model.faces.geometry.attributes.position.array["
       "3 * view.model.blocks.start[3]]";
-  const double first = browser.value(fmt::format(fmt::runtime(place), 0)).get<double>();
-  const double last = browser.value(fmt::format(fmt::runtime(place), 5)).get<double>();
+  const double first = browser->value(fmt::format(fmt::runtime(place), 0)).get<double>();
+  const double last = browser->value(fmt::format(fmt::runtime(place), 5)).get<double>();
   EXPECT_NEAR(last - first, 2.0, 1e-4);  // rounding of the positions
-  browser.value("view.find('.play').click()");
-  browser.value(
+  browser->value("view.find('.play').click()");
+  browser->value(
       "new Promise((done) => { const t = setInterval(() => { if (view.film.frame === 5 && "
       "!view.film.isPlaying) "
       "{ clearInterval(t); done(true); } }, 50); setTimeout(() => done(false), 20000); })");
-  EXPECT_EQ(browser.value("view.film.frame"), 5);
-  EXPECT_EQ(browser.value("view.find('.film output').textContent"), "5.000 s");
-  browser.value(
+  EXPECT_EQ(browser->value("view.film.frame"), 5);
+  EXPECT_EQ(browser->value("view.find('.film output').textContent"), "5.000 s");
+  browser->value(
       "(() => { const slider = view.find('.frame'); slider.value = 2; slider.dispatchEvent(new "
       "Event('input')); })()");
-  EXPECT_EQ(browser.value("view.film.frame"), 2) << "the slider was moved";
-  EXPECT_TRUE(browser.complaints().empty());
+  EXPECT_EQ(browser->value("view.film.frame"), 2) << "the slider was moved";
+  EXPECT_TRUE(browser->complaints().empty());
 }
 
 // An arrow starts at the centre of pressure of its joint: a click half-way up selects the joint.
-TEST(Viewer, AClickOnAnArrowShowsItsJoint) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(column_at_rest(), &browser);
-  browser.value("view.find('input[name=forces]').click()");
-  const auto place = browser.value(R"js((() => {
+TEST_F(Viewer, AClickOnAnArrowShowsItsJoint) {
+  open_view(column_at_rest());
+  browser->value("view.find('input[name=forces]').click()");
+  const auto place = browser->value(R"js((() => {
     const set = view.model.sets[0], p = set.arrows.geometry.attributes.position.array, v = 3 * set.arrows.userData.rods.per;
     const root = view.stage.middle().set(p[v], p[v + 1], p[v + 2]);  // of joint 1
     root.z += 0.5 * set.scale * set.get("force_z_N")[1];
@@ -174,17 +177,15 @@ TEST(Viewer, AClickOnAnArrowShowsItsJoint) {
     const r = view.stage.canvas.getBoundingClientRect();
     return [r.x + (root.x + 1) / 2 * r.width, r.y + (1 - root.y) / 2 * r.height];
   })())js");
-  browser.click(place[0], place[1]);
-  EXPECT_EQ(browser.value("document.querySelector('#view .numbers h3').textContent"), "Joint 1");
+  browser->click(place[0], place[1]);
+  EXPECT_EQ(browser->value("document.querySelector('#view .numbers h3').textContent"), "Joint 1");
 }
 
 // What is printed is the picture on the screen, dark on white also where the screen is dark.
-TEST(Viewer, PrintsThePictureOnWhite) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  browser.resize(1280, 900, true);
-  open_view(column_at_rest(), &browser);
-  const auto counts = browser.value(R"js((() => {
+TEST_F(Viewer, PrintsThePictureOnWhite) {
+  browser->resize(1280, 900, true);
+  open_view(column_at_rest());
+  const auto counts = browser->value(R"js((() => {
     window.dispatchEvent(new Event("beforeprint"));
     const c = view.find(".printed"), p = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
     let white = 0, other = 0;
@@ -193,17 +194,15 @@ TEST(Viewer, PrintsThePictureOnWhite) {
   })())js");
   EXPECT_GT(counts[0].get<double>(), 0.5) << "paper";
   EXPECT_GT(counts[1].get<double>(), 0.05) << "blocks";
-  EXPECT_EQ(browser.value("getComputedStyle(view.host).getPropertyValue('--picture').trim()"), "#1c1f22")
+  EXPECT_EQ(browser->value("getComputedStyle(view.host).getPropertyValue('--picture').trim()"), "#1c1f22")
       << "the screen stays dark";
 }
 
 // The PNG is wide enough for print, and the row below the picture has the colours and the ends of the scale.
-TEST(Viewer, SavesAPictureForPrintWithItsLegend) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(column_at_rest(), &browser);
-  browser.value("view.setColour('joint.normal_force_N')");
-  const auto saved = browser.value(R"js((() => {
+TEST_F(Viewer, SavesAPictureForPrintWithItsLegend) {
+  open_view(column_at_rest());
+  browser->value("view.setColour('joint.normal_force_N')");
+  const auto saved = browser->value(R"js((() => {
     const before = view.stage.canvas.width, {canvas: c, rows} = view.printed(), pen = c.getContext("2d");
     const top = Math.ceil(c.width * view.stage.canvas.clientHeight / view.stage.canvas.clientWidth) + 1;
     const strip = pen.getImageData(0, top, c.width, c.height - top).data, found = new Set();
@@ -220,12 +219,10 @@ TEST(Viewer, SavesAPictureForPrintWithItsLegend) {
 
 // In every standard view the model touches two opposite edges of the picture, but for 4 %, and lies in its
 // middle.
-TEST(Viewer, TheModelFillsThePicture) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(column_at_rest(), &browser);
+TEST_F(Viewer, TheModelFillsThePicture) {
+  open_view(column_at_rest());
   for (const char* view : {"outside", "below", "front", "side", "top"}) {
-    const auto reach = browser.value(fmt::format(R"js((() => {{
+    const auto reach = browser->value(fmt::format(R"js((() => {{
       const s = view.stage, low = [1, 1], high = [-1, -1];
       s.look("{}");
       s.camera.updateMatrixWorld();
@@ -235,7 +232,7 @@ TEST(Viewer, TheModelFillsThePicture) {
       }}
       return [high[0] - low[0], high[1] - low[1], high[0] + low[0], high[1] + low[1]];
     }})())js",
-                                                 view));
+                                                  view));
     EXPECT_GT(std::max(reach[0].get<double>(), reach[1].get<double>()), 2 * 0.9) << view;
     EXPECT_LT(std::max(reach[0].get<double>(), reach[1].get<double>()), 2.0) << view;
     for (const int k : {2, 3}) EXPECT_NEAR(reach[k].get<double>(), 0.0, 0.05) << view;
@@ -243,56 +240,54 @@ TEST(Viewer, TheModelFillsThePicture) {
 }
 
 // Everything that a pointer does, keys do: turn, zoom, go from block to block.
-TEST(Viewer, IsUsableByKeyboard) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(column_at_rest(), &browser);
-  const auto press = [&browser](const std::string& key) {
-    browser.value("view.stage.canvas.dispatchEvent(new KeyboardEvent('keydown', {key: '" + key + "'}))");
+TEST_F(Viewer, IsUsableByKeyboard) {
+  open_view(column_at_rest());
+  const auto press = [](const std::string& key) {
+    browser->value("view.stage.canvas.dispatchEvent(new KeyboardEvent('keydown', {key: '" + key + "'}))");
   };
   const char* place = "view.stage.camera.position.toArray()";
-  const auto start = browser.value(place);
+  const auto start = browser->value(place);
   press("ArrowLeft");
-  const auto turned = browser.value(place);
+  const auto turned = browser->value(place);
   EXPECT_NE(start, turned);
   press("+");
-  EXPECT_NE(browser.value(place), turned);
+  EXPECT_NE(browser->value(place), turned);
   press("Home");
-  EXPECT_EQ(browser.value("view.stage.standard"), "outside");
+  EXPECT_EQ(browser->value("view.stage.standard"), "outside");
   const char* heading = "document.querySelector('#view .numbers h3').textContent";
   press("n");
-  const std::string first = browser.value(heading);
+  const std::string first = browser->value(heading);
   press("n");
-  EXPECT_NE(browser.value(heading), first);
+  EXPECT_NE(browser->value(heading), first);
   press("p");
-  EXPECT_EQ(browser.value(heading), first);
-  EXPECT_EQ(browser.value("view.stage.canvas.tabIndex"), 0);
+  EXPECT_EQ(browser->value(heading), first);
+  EXPECT_EQ(browser->value("view.stage.canvas.tabIndex"), 0);
 }
 
 // A comparison has one camera, one scale of colours and one of forces.
-TEST(Viewer, LinksTheViewsOfAComparison) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+TEST_F(Viewer, LinksTheViewsOfAComparison) {
   const std::string post = column_at_rest(), folder = test::fresh_folder("linked");
   ASSERT_EQ(compare({post, post}, folder, true), ExitCode::done);
-  Browser browser;
-  browser.open(folder + "/comparison.html");
-  EXPECT_EQ(browser.value("window.cupolaViews.then((v) => { window.views = v; return v.length; })"), 2);
-  const auto direction = [&browser](const char* view) {
-    return browser.value(std::string("((s) => s.camera.position.clone().sub(s.controls.target).normalize()") +
-                         ".toArray())(views[" + view + "].stage)");
+  browser->open(folder + "/comparison.html");
+  EXPECT_EQ(browser->value("window.cupolaViews.then((v) => { window.views = v; return v.length; })"), 2);
+  const auto direction = [](const char* view) {
+    return browser->value(
+        std::string("((s) => s.camera.position.clone().sub(s.controls.target).normalize()") +
+        ".toArray())(views[" + view + "].stage)");
   };
-  browser.value("views[1].stage.turn(0.5, 0.2)");
+  browser->value("views[1].stage.turn(0.5, 0.2)");
   const auto first = direction("0");
   const auto second = direction("1");
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(first[k].get<double>(), second[k].get<double>(), 1e-9);
-  browser.value(
+  browser->value(
       "(() => { const s = views[0].find('.colour'); s.value = 'joint.normal_force_N'; s.dispatchEvent(new "
       "Event('change', {bubbles: true})); views[0].find('[name=forces]').click(); })()");
-  EXPECT_EQ(browser.value("views[1].colouring.key"), "joint.normal_force_N");
-  EXPECT_EQ(browser.value("views[1].forces"), true);
-  EXPECT_EQ(browser.value("views[0].find('.legend').innerText === views[1].find('.legend').innerText"), true);
-  EXPECT_EQ(browser.value("views[0].model.forceScale === views[1].model.forceScale"), true);
-  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+  EXPECT_EQ(browser->value("views[1].colouring.key"), "joint.normal_force_N");
+  EXPECT_EQ(browser->value("views[1].forces"), true);
+  EXPECT_EQ(browser->value("views[0].find('.legend').innerText === views[1].find('.legend').innerText"),
+            true);
+  EXPECT_EQ(browser->value("views[0].model.forceScale === views[1].model.forceScale"), true);
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
 }
 
 std::string column_with_wythes() {
@@ -300,45 +295,41 @@ std::string column_with_wythes() {
   return test::analysed_column("wythes", {test::column_with_a_tie(a)}, test::column_summary(a), a);
 }
 
-TEST(Viewer, TakesWythesAwayMovesThemApartAndShowsTies) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(column_with_wythes(), &browser);
+TEST_F(Viewer, TakesWythesAwayMovesThemApartAndShowsTies) {
+  open_view(column_with_wythes());
   EXPECT_EQ(
-      browser.value("Array.from(view.host.querySelectorAll('.members label'), (l) => l.innerText.trim())"),
+      browser->value("Array.from(view.host.querySelectorAll('.members label'), (l) => l.innerText.trim())"),
       (nlohmann::json{"inner", "bonder", "Support"}))
       << "no block is of the outer wythe";
   const char* triangles = "view.model.faces.geometry.drawRange.count";
-  const int all = browser.value(triangles);
-  browser.value("view.find('[name=member2]').click()");
-  const int fewer = browser.value(triangles);
-  EXPECT_EQ(browser.value("view.model.isShown(3)"), false);
+  const int all = browser->value(triangles);
+  browser->value("view.find('[name=member2]').click()");
+  const int fewer = browser->value(triangles);
+  EXPECT_EQ(browser->value("view.model.isShown(3)"), false);
   EXPECT_NE(fewer, all);
-  browser.value("view.find('[name=member2]').click()");
-  EXPECT_EQ(browser.value(triangles), all);
+  browser->value("view.find('[name=member2]').click()");
+  EXPECT_EQ(browser->value(triangles), all);
   // The bonder reaches through both wythes: its middle lies half a wythe outside that of the inner one.
   const double moved =
       browser
-          .value(
+          ->value(
               "(() => { const s = view.find('.wythes-apart'); s.value = 1; s.dispatchEvent(new "
               "Event('input')); return view.model.pose.offset[3 * 3 + 1] / view.model.size; })()")
           .get<double>();
   EXPECT_NEAR(moved, 0.3 * 0.5, 1e-6) << "rounding to seven digits";
-  EXPECT_EQ(browser.value("view.model.pose.offset[3 * 1 + 1]"), 0.0) << "the inner wythe stays";
-  EXPECT_EQ(browser.value("view.model.ties.visible"), false);
-  browser.value("view.find('[name=ties]').click()");
-  EXPECT_EQ(browser.value("view.model.ties.visible"), true);
-  const std::string legend = browser.value("view.find('.ties-legend').innerText");
+  EXPECT_EQ(browser->value("view.model.pose.offset[3 * 1 + 1]"), 0.0) << "the inner wythe stays";
+  EXPECT_EQ(browser->value("view.model.ties.visible"), false);
+  browser->value("view.find('[name=ties]').click()");
+  EXPECT_EQ(browser->value("view.model.ties.visible"), true);
+  const std::string legend = browser->value("view.find('.ties-legend').innerText");
   EXPECT_NE(legend.find("Tension, ties, kN"), std::string::npos) << legend;
   EXPECT_NE(legend.find("1.234"), std::string::npos) << legend;
-  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
 }
 
-TEST(Viewer, EveryControlWorksWithoutComplaint) {
-  if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
-  Browser browser;
-  open_view(column_at_rest(), &browser);
-  const int used = browser.value(R"js((() => {
+TEST_F(Viewer, EveryControlWorksWithoutComplaint) {
+  open_view(column_at_rest());
+  const int used = browser->value(R"js((() => {
     window.URL.createObjectURL = () => "data:,";
     let used = 0;
     const fire = (element, type) => { element.dispatchEvent(new Event(type)); ++used; };
@@ -353,7 +344,7 @@ TEST(Viewer, EveryControlWorksWithoutComplaint) {
     return used;
   })())js");
   EXPECT_GT(used, 30);
-  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
 }
 
 }  // namespace
