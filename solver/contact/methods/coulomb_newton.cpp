@@ -9,10 +9,9 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
-#include "solver/contact/methods/gmres.hpp"
-#include "solver/contact/problem/cone.hpp"
+#include "solver/contact/methods/coulomb_direction.hpp"
+#include "solver/contact/methods/coulomb_subproblem.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/runtime/interruption.hpp"
@@ -20,69 +19,6 @@
 namespace cupola {
 
 namespace {
-
-/// w = v_star + D Gamma(D^T w + b - R centre), whitened.
-struct CoulombSubproblem {
-  const ContactProblem& p;
-  const ContactGraph& graph;
-  double dilatancy;
-  VecX R;       ///< 1/kg (nc)
-  VecX centre;  ///< gamma_k (3 nc)
-
-  ContactLaw contact(int i) const {
-    ContactLaw law = contact_law(p, i, p.E[3 * i] + R[i], p.E[3 * i + 1] + R[i]);
-    law.dilatancy = dilatancy;
-    return law;
-  }
-  VecX velocity(const VecX& w) const;
-  VecX impulses(const VecX& y) const;
-  /// d residual / d w = I + D G D^T at the relative velocities y.
-  UnsymmetricBlockMatrix jacobian(const VecX& y) const;
-};
-
-VecX CoulombSubproblem::velocity(const VecX& w) const {
-  VecX y = relative_velocity(p, w) + p.b;
-  for (int i = 0; i < p.num_contacts(); ++i) y.segment<3>(3 * i) -= R[i] * centre.segment<3>(3 * i);
-  return y;
-}
-
-VecX CoulombSubproblem::impulses(const VecX& y) const {
-  VecX gamma(y.size());
-  for (int i = 0; i < p.num_contacts(); ++i)
-    gamma.segment<3>(3 * i) = contact_impulse(contact(i), y.segment<3>(3 * i));
-  return gamma;
-}
-
-UnsymmetricBlockMatrix CoulombSubproblem::jacobian(const VecX& y) const {
-  std::vector<Mat3> G(p.num_contacts());
-  for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i));
-  return assemble_jacobian(p, graph, G);
-}
-
-struct CoulombPoint {
-  VecX w, y, gamma, F;  ///< F: w - v_star - D gamma
-};
-
-CoulombPoint point_at(const CoulombSubproblem& sub, VecX w) {
-  CoulombPoint point{std::move(w), {}, {}, {}};
-  point.y = sub.velocity(point.w);
-  point.gamma = sub.impulses(point.y);
-  point.F = point.w - sub.p.v_star - generalized_impulse(sub.p, point.gamma);
-  return point;
-}
-
-/// The solution with all contacts sticking, including those with a gap. False if the matrix is singular.
-bool all_stick_start(const CoulombSubproblem& sub, BlockLu* lu, VecX* w) {
-  const ContactProblem& p = sub.p;
-  std::vector<Mat3> G(p.num_contacts());
-  for (int i = 0; i < p.num_contacts(); ++i) G[i] = sticking_stiffness(sub.contact(i));
-  if (!lu->factorize(sub.graph.pattern, assemble_jacobian(p, sub.graph, G))) return false;
-  VecX impulse(p.b.size());
-  const VecX y = sub.velocity(VecX::Zero(p.v_star.size()));
-  for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * y.segment<3>(3 * i);
-  *w = lu->solve(p.v_star + generalized_impulse(p, impulse));
-  return w->allFinite();
-}
 
 double largest_block(const VecX& F) {
   double largest = 0.0;
@@ -93,42 +29,39 @@ double largest_block(const VecX& F) {
   return largest;
 }
 
-/// J d = F by GMRES with the existing factor where `forcing` is given and that succeeds, otherwise by a new
-/// factor.
-bool solve_direction(const BlockPattern& pattern, const UnsymmetricBlockMatrix& J, const VecX& F,
-                     std::optional<double> forcing, BlockLu* lu, VecX* d, SolveSummary* summary) {
-  constexpr int kMaxIterations = 6;  // half the cost of a factorisation at 1,000 blocks
-  if (forcing && lu->has_factor() && lu->pattern() == pattern) {
-    const int iterations = gmres([&](const VecX& x) { return multiply(pattern, J, x); },
-                                 [&](const VecX& r) { return lu->solve(r); }, F, *forcing, kMaxIterations, d);
-    summary->conjugate_gradients += iterations > 0 ? iterations : kMaxIterations;
-    if (iterations > 0) return true;
-  }
-  ++summary->factorizations;
-  if (!lu->factorize(pattern, J)) return false;
-  *d = lu->solve(F);
-  return d->allFinite();
-}
+/// How accurately a subproblem is solved.
+struct SubproblemAccuracy {
+  double tolerance;                ///< of each block of F
+  double share = 0.0;              ///< of the error that R causes; if larger, it replaces the tolerance
+  bool inexact_directions = true;  ///< GMRES with an earlier factor where that succeeds
+};
 
-/// Semismooth Newton from `point`, with a line search on |F|. True if no block of F exceeds `tolerance`;
+/// Semismooth Newton from `point`, with a line search on |F|. True if no block of F exceeds the tolerance;
 /// otherwise point is the last iterate. Gives up where |F| has not halved in six iterations.
-bool solve_subproblem(const CoulombSubproblem& sub, double tolerance, const SolveOptions& options,
-                      BlockLu* lu, CoulombPoint* point, SolveSummary* summary) {
+bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& accuracy,
+                      const SolveOptions& options, CoulombDirection* direction, CoulombPoint* point,
+                      SolveSummary* summary) {
   constexpr int kMaxIterations = 30, kPatience = 6;
   constexpr double kShortest = 1.0 / 64.0, kDecrease = 1e-4;
   const int max_iterations = options.max_iterations.value_or(kMaxIterations);
   std::vector<double> norms;
-  for (int k = 0; k < max_iterations && !(largest_block(point->F) <= tolerance); ++k) {
+  const auto is_solved = [&] {
+    double tolerance = accuracy.tolerance;
+    if (accuracy.share > 0.0)
+      tolerance = std::max(tolerance, accuracy.share * sub.distance_to_centre(point->gamma));
+    return largest_block(point->F) <= tolerance;
+  };
+  for (int k = 0; k < max_iterations && !is_solved(); ++k) {
     throw_if_interrupted();
     const VecX& F = point->F;
     norms.push_back(F.norm());
     if (k >= kPatience && norms[k] > 0.5 * norms[k - kPatience]) return false;
     ++summary->iterations;
     std::optional<double> forcing;
-    if (options.lag_factor) forcing = std::clamp(0.3 * tolerance / largest_block(F), 1e-2, 0.1);
+    if (accuracy.inexact_directions)
+      forcing = std::clamp(0.3 * accuracy.tolerance / largest_block(F), 1e-2, 0.1);
     VecX d;
-    if (!solve_direction(sub.graph.pattern, sub.jacobian(point->y), F, forcing, lu, &d, summary))
-      return false;
+    if (!direction->solve(sub.p, sub.graph, sub.stiffnesses(point->y), F, forcing, &d, summary)) return false;
     CoulombPoint trial;
     double t = 2.0;
     do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
@@ -139,7 +72,34 @@ bool solve_subproblem(const CoulombSubproblem& sub, double tolerance, const Solv
     if (!(trial.F.norm() < F.norm())) return false;
     *point = std::move(trial);
   }
-  return largest_block(point->F) <= tolerance;
+  return is_solved();
+}
+
+/// The solution with all contacts sticking, including those with a gap, if there is one. For rigid contacts
+/// by a Cholesky factor, which then preconditions the proximal points.
+std::optional<VecX> sticking_solution(const CoulombSubproblem& sub, bool rigid, CoulombDirection* direction,
+                                      SolveSummary* summary) {
+  const StickingSystem system = sticking_system(sub);
+  VecX w;
+  SolveSummary uncounted;
+  const bool exists =
+      rigid ? direction->solve_symmetric(sub.p, sub.graph, system.G, system.rhs, &w, summary)
+            : direction->solve(sub.p, sub.graph, system.G, system.rhs, std::nullopt, &w, &uncounted);
+  return exists ? std::optional(std::move(w)) : std::nullopt;
+}
+
+/// The ending of plain Newton, which is judged by the momentum residual `reached`.
+void set_ending(bool solved, bool finite, double reached, const SolveOptions& options,
+                SolveSummary* summary) {
+  summary->reached = reached;
+  summary->residual_history.push_back(reached);
+  summary->ending = !finite                                          ? SolveEnding::failed
+                    : solved                                         ? SolveEnding::converged
+                    : summary->iterations >= *options.max_iterations ? SolveEnding::max_iterations
+                                                                     : SolveEnding::stalled;
+  summary->message =
+      fmt::format("momentum residual {:.2e} {} tolerance {:.2e} after {}", reached, solved ? "<=" : ">",
+                  options.tolerance, counted(summary->iterations, "iteration"));
 }
 
 /// The best solution so far, judged by residuals of the given problem.
@@ -170,6 +130,7 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
                                   ContactSolution* solution) {
   constexpr double kShare = 0.5;  // of the tolerance, so that residuals computed anew meet it too
   constexpr int kMaxOuterIterations = 200;
+  constexpr double kInnerShare = 0.03;  // Rockafellar (1976), proximal point algorithm, criterion B
   constexpr double kFirstShare = 1.0, kLargestShare = 1e3, kSmallestShare = 1e-6;
   const double start = wall_seconds();
   options.validate();
@@ -177,36 +138,49 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
   const WhitenedProblem white = whiten(problem);
   const ContactGraph graph = contact_graph(problem);
-  CoulombSubproblem sub{white.problem, graph, options.law.dilatancy, VecX::Zero(problem.num_contacts()),
+  CoulombSubproblem sub{white.problem,
+                        graph,
+                        options.law.dilatancy,
+                        root_mean_mass(problem),
+                        VecX::Zero(problem.num_contacts()),
                         VecX::Zero(problem.b.size())};
+  CoulombDirection direction(&lu_);
+  VecX diagonal;
+  const auto set_share = [&](double share) {
+    if (diagonal.size() == 0) diagonal = delassus_traces(problem) / 3.0;
+    sub.R = share * diagonal;
+  };
   const bool rigid = first_rigid_contact(problem).has_value();
-  const double scale = root_mean_mass(problem) * options.reference_speed;
+  double share = rigid ? share_ : kFirstShare;
+  const double scale = sub.root_mass * options.reference_speed;
   const double tolerance = kShare * options.tolerance * scale;
   BestSolution best{problem, white, options, solution};
   VecX w = white.problem.v_star;
-  if (solution->v.size() == problem.v_star.size())
+  bool sticks = false;
+  if (solution->v.size() == problem.v_star.size()) {
     w = white.to_w(solution->v);
-  else if (!rigid)
-    all_stick_start(sub, &lu_, &w);
+  } else {
+    factor_share_ = 0.0;
+    if (rigid) set_share(share);
+    if (std::optional<VecX> sticking = sticking_solution(sub, rigid, &direction, &summary)) {
+      // Rigid blocks that can slide out of a structure would jam: they start from free fall.
+      sticks = rigid && keeps_sticking(sub, point_at(sub, *sticking));
+      if (sticks || !rigid) w = std::move(*sticking);
+    }
+  }
 
   // 1. Plain Newton
   if (!rigid) {
     factor_share_ = 0.0;
     CoulombPoint next = point_at(sub, w);
-    const bool solved = solve_subproblem(sub, tolerance, options, &lu_, &next, &summary);
+    const bool solved =
+        solve_subproblem(sub, {.tolerance = tolerance, .inexact_directions = options.lag_factor}, options,
+                         &direction, &next, &summary);
     if (solved || options.max_iterations) {
       const double reached = largest_block(next.F) / scale;
       *solution = {white.to_v(next.w), std::move(next.gamma)};
-      summary.reached = reached;
-      summary.residual_history.push_back(reached);
       const bool finite = std::isfinite(reached) && solution->v.allFinite() && solution->gamma.allFinite();
-      summary.ending = !finite                                         ? SolveEnding::failed
-                       : solved                                        ? SolveEnding::converged
-                       : summary.iterations >= *options.max_iterations ? SolveEnding::max_iterations
-                                                                       : SolveEnding::stalled;
-      summary.message =
-          fmt::format("momentum residual {:.2e} {} tolerance {:.2e} after {}", reached, solved ? "<=" : ">",
-                      options.tolerance, counted(summary.iterations, "iteration"));
+      set_ending(solved, finite, reached, options, &summary);
       summary.time_seconds = wall_seconds() - start;
       return summary;
     }
@@ -214,17 +188,16 @@ SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSo
   }
 
   // 2. Proximal points
-  const VecX diagonal = delassus_traces(problem) / 3.0;
   if (solution->gamma.size() == problem.b.size()) sub.centre = solution->gamma;
-  SolveOptions inner = options;
-  double share = rigid ? share_ : kFirstShare;
+  SubproblemAccuracy accuracy{.tolerance = 0.2 * tolerance, .share = sticks ? kInnerShare : 0.0};
   while (best.error > 1.0 && summary.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
     ++summary.outer_iterations;
-    sub.R = share * diagonal;
-    inner.lag_factor = options.lag_factor && rigid && share == factor_share_;  // R changes the matrix
-    factor_share_ = share;
+    set_share(share);
+    // R changes the matrix, which matters less where most contacts stick.
+    accuracy.inexact_directions = sticks || (options.lag_factor && rigid && share == factor_share_);
+    factor_share_ = sticks ? 0.0 : share;
     CoulombPoint next = point_at(sub, w);
-    if (!solve_subproblem(sub, 0.2 * tolerance, inner, &lu_, &next, &summary)) {
+    if (!solve_subproblem(sub, accuracy, options, &direction, &next, &summary)) {
       // What was right for the last problem is not for this one.
       share = summary.outer_iterations == 1 && share < kFirstShare ? kFirstShare : 10.0 * share;
       continue;

@@ -41,6 +41,28 @@ TEST(CoulombNewton, SlidesDownTheIncline) {
   }
 }
 
+// The first step of a rigid dome whose contacts stick: symmetric factors and inexact subproblems lead to the
+// solution that exact steps from free fall lead to.
+TEST(CoulombNewton, SticksAsFromFreeFall) {
+  scenes::DomeShape shape;
+  shape.rings = 8;
+  shape.blocks_per_ring = 12;
+  const ContactProblem problem = scenes::dome(shape, 0.01, {0.4, 0.0, 0.0});
+  const ContactSolverOptions options = options_for(problem, 1e-8);
+  ContactSolution x, falling{problem.v_star, {}};
+  const SolveSummary summary = CoulombNewton().solve(problem, options, &x);
+  const SolveSummary slow = CoulombNewton().solve(problem, options, &falling);
+  EXPECT_EQ(summary.ending, SolveEnding::converged) << summary.message;
+  EXPECT_EQ(slow.ending, SolveEnding::converged) << slow.message;
+  EXPECT_LE(excess(compute_residuals(problem, x, options.reference_speed, options.law), options.tolerance),
+            1.0);
+  const double speed = options.reference_speed;
+  EXPECT_LE((x.v - falling.v).lpNorm<Eigen::Infinity>(), 1e-6 * speed);  // 100 tolerances: condition
+  EXPECT_LE((x.gamma - falling.gamma).norm(), 1e-4 * x.gamma.norm());    // self-stress depends on the path
+  EXPECT_LE(3 * summary.factorizations, summary.iterations);
+  EXPECT_LE(5 * summary.factorizations, slow.factorizations);
+}
+
 // The next step of a dome that slides: the proximal compliance that ended the last solve suits it.
 TEST(CoulombNewton, CarriesTheProximalComplianceAlongASlide) {
   scenes::DomeShape shape;

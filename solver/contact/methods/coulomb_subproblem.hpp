@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/contact/blocks/block_matrix.hpp"
+#include "solver/contact/problem/cone.hpp"
+
+namespace cupola {
+
+/// The compliant problem that CoulombNewton solves by Newton's method, whitened:
+///
+///     F(w) = w - v_star - D Gamma(D^T w + b - R centre) = 0,    Gamma of compliance E + R
+struct CoulombSubproblem {
+  const ContactProblem& p;
+  const ContactGraph& graph;
+  double dilatancy;
+  double root_mass;  ///< root_mean_mass() of the given problem, sqrt(kg)
+  VecX R;            ///< 1/kg (nc)
+  VecX centre;       ///< gamma_k (3 nc)
+
+  ContactLaw contact(int i) const {
+    ContactLaw law = contact_law(p, i, p.E[3 * i] + R[i], p.E[3 * i + 1] + R[i]);
+    law.dilatancy = dilatancy;
+    return law;
+  }
+  VecX velocity(const VecX& w) const;
+  VecX impulses(const VecX& y) const;
+  std::vector<Mat3> stiffnesses(const VecX& y) const;
+  /// The error of `gamma` in the given problem due to R, max |R (gamma - centre)|, in the unit of w.
+  double distance_to_centre(const VecX& gamma) const;
+};
+
+struct CoulombPoint {
+  VecX w, y, gamma, F;
+};
+
+CoulombPoint point_at(const CoulombSubproblem& sub, VecX w);
+
+/// J w = rhs for the solution with all contacts sticking, including those with a gap.
+struct StickingSystem {
+  std::vector<Mat3> G;  ///< diagonal
+  VecX rhs;
+};
+StickingSystem sticking_system(const CoulombSubproblem& sub);
+
+/// True if the solution `point` of the sticking system solves the subproblem, but for 3 % of the impulses on
+/// each block: no contact opens or slides. It scales with the loads, so that structures without gaps reach it
+/// from rest without sliding.
+bool keeps_sticking(const CoulombSubproblem& sub, const CoulombPoint& point);
+
+}  // namespace cupola

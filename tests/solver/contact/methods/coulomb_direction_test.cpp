@@ -1,0 +1,101 @@
+#include "solver/contact/methods/coulomb_direction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "solver/contact/methods/coulomb_subproblem.hpp"
+#include "solver/contact/problem/whitening.hpp"
+#include "tests/solver/contact/contact_scenes.hpp"
+
+namespace cupola::coulomb_direction_test {
+namespace {
+
+/// A dome of compliant contacts under Coulomb's law with random relative velocities, so that contacts stick,
+/// slide and open side by side.
+struct System {
+  ContactProblem problem;
+  ContactGraph graph;
+  std::vector<Mat3> G;
+  VecX F;
+};
+
+System random_system(double friction, unsigned seed) {
+  scenes::DomeShape shape;
+  shape.rings = 8;
+  shape.blocks_per_ring = 12;
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  System system{whiten(scenes::dome(shape, 0.01, {friction, 1e-8, 1e-8})).problem, {}, {}, {}};
+  const ContactProblem& p = system.problem;
+  system.graph = contact_graph(p);
+  const CoulombSubproblem sub{
+      p, system.graph, 0.0, 1.0, VecX::Zero(p.num_contacts()), VecX::Zero(p.b.size())};
+  VecX y(p.b.size());
+  for (double& value : y) value = normal(random) - 0.5;
+  system.G = sub.stiffnesses(y);
+  system.F = VecX::NullaryExpr(p.v_star.size(), [&] { return normal(random); });
+  return system;
+}
+
+struct Solved {
+  double residual;  ///< |J d - F| / |F|
+  SolveSummary summary;
+};
+
+Solved solve(const System& s, std::optional<double> forcing, CoulombDirection* direction) {
+  Solved solved;
+  VecX d;
+  EXPECT_TRUE(direction->solve(s.problem, s.graph, s.G, s.F, forcing, &d, &solved.summary));
+  const UnsymmetricBlockMatrix J = assemble_jacobian(s.problem, s.graph, s.G);
+  solved.residual = (multiply(s.graph.pattern, J, d) - s.F).norm() / s.F.norm();
+  return solved;
+}
+
+/// Leaves the Cholesky factor of a matrix in which every contact sticks.
+void factorize_sticking(const System& s, CoulombDirection* direction) {
+  SolveSummary summary;
+  VecX d;
+  const std::vector<Mat3> G(s.G.size(), Mat3::Identity());
+  ASSERT_TRUE(direction->solve_symmetric(s.problem, s.graph, G, s.F, &d, &summary));
+}
+
+// Up to friction 5 the matrices are far from symmetric, and those of friction 0 are symmetric.
+TEST(CoulombDirection, MeetsItsForcing) {
+  for (const double friction : {0.0, 0.05, 0.4, 5.0}) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+      const System system = random_system(friction, seed);
+      BlockLu lu;
+      CoulombDirection direction(&lu);
+      factorize_sticking(system, &direction);
+      for (const double forcing : {0.1, 1e-3, 1e-6})
+        EXPECT_LE(solve(system, forcing, &direction).residual, 1.01 * forcing) << friction;  // 1 %: rounding
+      const Solved exact = solve(system, std::nullopt, &direction);
+      EXPECT_LE(exact.residual, 1e-9) << friction;  // condition about 1e4
+      EXPECT_EQ(exact.summary.factorizations, 1);
+      EXPECT_EQ(exact.summary.conjugate_gradients, 0);
+    }
+  }
+}
+
+// A Cholesky factor is renewed as one where that serves, as it does for a symmetric matrix, and an LU factor
+// takes its place where it does not. Either is kept for the next system.
+TEST(CoulombDirection, RenewsFactorsOfTheKindThatServes) {
+  System system = random_system(0.4, 1);
+  const std::vector<Mat3> sliding = system.G;
+  BlockLu lu;
+  CoulombDirection direction(&lu);
+  factorize_sticking(system, &direction);
+  for (Mat3& G : system.G) G = 1e4 * Mat3::Identity();
+  Solved solved = solve(system, 1e-6, &direction);
+  EXPECT_EQ(solved.summary.factorizations, 1);
+  EXPECT_EQ(solved.summary.conjugate_gradients, 12 + 1);  // without success, and with its own factor
+  EXPECT_EQ(solve(system, 1e-6, &direction).summary.factorizations, 0);
+  for (std::size_t i = 0; i < sliding.size(); ++i) system.G[i] = 1e4 * sliding[i];
+  solved = solve(system, 1e-12, &direction);
+  EXPECT_EQ(solved.summary.factorizations, 2);  // Cholesky, then LU
+  solved = solve(system, 1e-6, &direction);
+  EXPECT_EQ(solved.summary.factorizations, 0);
+  EXPECT_EQ(solved.summary.conjugate_gradients, 1);  // with the LU factor of the same matrix
+}
+
+}  // namespace
+}  // namespace cupola::coulomb_direction_test
