@@ -171,9 +171,11 @@ std::optional<CsvFile> readable_table(const ResultsReader& results, const std::s
 
 /// The stages of a staged run.
 std::optional<StageReport> read_construction(const ResultsReader& results, Evaluation* e) {
-  if (const auto rings = readable_table(results, "stages.csv", e)) return rings_laid(*e, *rings);
+  if (const auto old = readable_table(results, "stages.csv", e))
+    return report_stages(*e, StagedConstruction::Least::friction, from_stages_csv(*old), std::nullopt);
   if (const auto stages = readable_table(results, "construction.csv", e))
-    return blocks_laid(e->scene.analysis.staged.least, *stages, readable_table(results, "failures.csv", e));
+    return report_stages(*e, e->scene.analysis.staged.least, *stages,
+                         readable_table(results, "failures.csv", e));
   return std::nullopt;
 }
 

@@ -114,14 +114,8 @@ struct StagedConstruction {
   int hold_below =
       -1;  ///< courses below the one laid that are solved, lower ones are supports; -1: all are solved
   bool allow_associated = false;  ///< accept a dilatant friction law for open courses
-  bool critical_friction = true;  ///< also find the fresh friction below which each stage does not stand
   Least least = Least::none;      ///< property of the fresh mortar whose least value is found for every stage
-  double relative_width = 1e-2;   ///< relative width of the bracket of either, in (0, 1)
-
-  /// Whole courses from unloaded joints: what version 0.1 computes.
-  bool independent_rings() const {
-    return unit == Unit::ring && !carry && least == Least::none && curing.empty() && hold_below < 0;
-  }
+  double relative_width = 1e-2;   ///< relative width of its bracket, in (0, 1)
 };
 constexpr auto enum_names(StagedConstruction::Unit) {
   return std::array{"ring", "block"};

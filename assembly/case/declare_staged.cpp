@@ -80,9 +80,8 @@ void declare_staged(Section& s, StagedConstruction& staged) {
   s.flag("carry", staged.carry,
          "each stage starts from displacements, forces, slip and damage of the last one; a new block is laid "
          "stress-free");
-  s.integer(
-      "first_ring", staged.first_ring, {.min = 0},
-      "last ring laid in the first stage computed; unit: block, or carry: the rings below are laid at once");
+  s.integer("first_ring", staged.first_ring, {.min = 0},
+            "last ring laid in the first stage computed; the rings below are laid at once");
   s.integer("last_ring", staged.last_ring, {.min = -1},
             "last ring laid in the last stage computed; -1: the complete model");
   std::optional<double> short_form;
@@ -102,12 +101,11 @@ void declare_staged(Section& s, StagedConstruction& staged) {
             "solved");
   s.flag("allow_associated", staged.allow_associated,
          "unit: block: accept friction laws under which open courses jam");
-  s.flag("critical_friction", staged.critical_friction,
-         "unit: ring without carry: also find the fresh friction below which each stage does not stand");
+  s.retired("critical_friction", "give least: friction instead of true, and nothing instead of false");
   s.choice("least", staged.least,
            "property of fresh mortar whose least value is found with which each stage stands");
   s.number("relative_width", staged.relative_width, {.above = 0, .below = 1},
-           "relative width of the final bracket of critical_friction or least");
+           "relative width of the final bracket of least");
   declare_curing_rules(s, staged);
   s.rule(staged.order != Order::given || !staged.sequence.empty(), "order", "given requires a sequence");
   s.rule(staged.order == Order::given || staged.sequence.empty(), "sequence", "requires order: given");

@@ -69,7 +69,9 @@ Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& 
   for (size_t i = 0; i < folders.size(); ++i) {
     const std::string path = (fs::path(folders[i]) / (overlay.table + ".csv")).string();
     if (!fs::exists(path)) continue;
-    const std::vector<std::vector<double>> rows = curve(read_csv(path), overlay);
+    const CsvFile csv = read_csv(path);
+    if (std::ranges::find(csv.columns, overlay.column) == csv.columns.end()) continue;  // nothing was sought
+    const std::vector<std::vector<double>> rows = curve(csv, overlay);
     for (const auto& row : rows) {
       if (!std::isfinite(row[1])) continue;
       least = std::min(least, row[1]);
@@ -115,8 +117,8 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
       {"rings", "largest_friction_use", 100.0, "Largest friction use of a bed (%)",
        "Friction utilisation of the beds"},
       {"rings", "largest_kern_use", 1.0, "Largest kern use of a bed", "Eccentricity of the bed forces"}};
-  overlays.push_back({"stages", "critical_friction", 1.0, "Friction required by the ring just laid",
-                      "Construction, ring by ring"});
+  overlays.push_back({"stages", "least_stands", 1.0, "Friction required of the fresh mortar",
+                      "Construction, stage by stage"});
   for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
     const std::string name = table.substr(7);
     overlays.push_back({table, "r_N", 1e-6, "Resultant (MN)", "Resultant along the meridian " + name});

@@ -33,8 +33,7 @@ std::optional<Figure> curve_over_stages(const std::vector<std::vector<double>>& 
   return f;
 }
 
-/// Rows of stages.csv or construction.csv: the first stage that does not stand, and the one that needs the
-/// most.
+/// The first stage that does not stand, and the one that needs the most.
 struct Notable {
   int standing = 0;
   std::optional<size_t> failing, demanding;
@@ -81,6 +80,7 @@ std::vector<Table::Column> construction_columns(Least least) {
   const std::string property = to_string(least), unit = least == Least::cohesion ? "Pa" : "";
   std::vector<Table::Column> columns{{"stage", "", "stage, counted from 0"},
                                      {"ring", "", "course being laid"},
+                                     {"height_m", "m", "mean height of its bed joints"},
                                      {"laid", "", "blocks laid in the stage"},
                                      {"blocks", "", "blocks solved"},
                                      {"verdict", "", "with the mortar of the case"}};
@@ -93,53 +93,30 @@ std::vector<Table::Column> construction_columns(Least least) {
   columns.push_back({"moving", "", least == Least::none ? "what moves" : "what moves with less"});
   columns.push_back(
       {"head_squeeze_m", "m", "closing of the most compressed fresh head joint since it was laid"});
-  columns.push_back(
-      {"displacement_m", "m", "largest displacement of a block from its place in the assembly"});
+  columns.push_back({"displacement_m", "m", "largest distance of a block from its place in the assembly"});
   return columns;
 }
 
 }  // namespace
 
-StageReport rings_laid(const Evaluation& e, const CsvFile& csv) {
-  const size_t ring = csv.column("ring"), blocks = csv.column("blocks"), verdict = csv.column("verdict");
-  const size_t stands = csv.column("critical_stands"), moves = csv.column("critical_moves");
-  StageReport out;
-  Table& t = out.table = {"stages", "Construction, ring by ring", {}, {}};
-  t.columns = {
-      {"ring", "", "the ring just laid"},
-      {"height_m", "m", "mean height of its bed joints"},
-      {"blocks", "", "blocks laid so far"},
-      {"verdict", "", "at the fresh friction of the case"},
-      {"critical_friction", "", "fresh friction below which the stage does not stand; 0: it needs none"},
-      {"critical_stands", "", "end of the bracket at which the stage stands"},
-      {"critical_moves", "", "end of the bracket at which the stage moves"}};
-  std::vector<std::vector<double>> points;
-  for (size_t row = 0; row < csv.rows.size(); ++row) {
-    const int k = static_cast<int>(csv.number(row, ring));
-    const double low = csv.number(row, moves), high = csv.number(row, stands);  // NaN without a bracket
-    const double critical = high == 0.0 ? 0.0 : 0.5 * (low + high),
-                 height = e.rings.at(static_cast<size_t>(k)).height;
-    t.rows.push_back(
-        {k, height, static_cast<int>(csv.number(row, blocks)), csv.rows[row][verdict], critical, high, low});
-    points.push_back({height, critical});
+CsvFile from_stages_csv(CsvFile old) {
+  std::ranges::replace(old.columns, std::string("critical_stands"), std::string("least_stands"));
+  std::ranges::replace(old.columns, std::string("critical_moves"), std::string("least_moves"));
+  for (const char* added : {"stage", "laid", "head_squeeze_m", "displacement_m"})
+    old.columns.emplace_back(added);
+  double before = 0.0;
+  for (size_t row = 0; row < old.rows.size(); ++row) {
+    const double blocks = old.number(row, old.column("blocks"));
+    for (const std::string& cell :
+         {std::to_string(row), fmt::format("{}", blocks - before), std::string(), std::string()})
+      old.rows[row].push_back(cell);
+    before = blocks;
   }
-  const Notable notable = notable_stages(csv, verdict, stands);
-  out.standing = notable.standing;
-  if (notable.failing)
-    out.worst = "the first that does not: ring " + csv.rows[*notable.failing][ring];
-  else if (notable.demanding)
-    out.worst = "the most demanding: ring " + csv.rows[*notable.demanding][ring];
-  out.figure = curve_over_stages(points, "height of the ring just laid (m)", "required friction");
-  if (!out.figure) return out;
-  out.figure->title = "Construction: friction required of the fresh mortar, ring by ring";
-  out.figure->caption =
-      "The bed of the ring just laid has the friction of fresh mortar, all other joints have that of the "
-      "case. The curve shows the fresh friction below which the vault built so far does not stand; 0 means "
-      "that it needs none.";
-  return out;
+  return old;
 }
 
-StageReport blocks_laid(Least least, const CsvFile& csv, const std::optional<CsvFile>& failures) {
+StageReport report_stages(const Evaluation& e, Least least, const CsvFile& csv,
+                          const std::optional<CsvFile>& failures) {
   const size_t number = csv.column("stage"), ring = csv.column("ring"), laid = csv.column("laid");
   const size_t blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("least_stands"), moves = csv.column("least_moves");
@@ -150,8 +127,14 @@ StageReport blocks_laid(Least least, const CsvFile& csv, const std::optional<Csv
   std::vector<std::vector<double>> points;
   for (size_t row = 0; row < csv.rows.size(); ++row) {
     std::vector<Table::Cell>& cells = out.table.rows.emplace_back();
-    for (const size_t column : {number, ring, laid, blocks})
+    const auto add_count = [&](size_t column) {
       cells.emplace_back(static_cast<int>(csv.number(row, column)));
+    };
+    add_count(number);
+    add_count(ring);
+    cells.emplace_back(e.rings.at(static_cast<size_t>(csv.number(row, ring))).height);
+    add_count(laid);
+    add_count(blocks);
     cells.emplace_back(csv.rows[row][verdict]);
     if (least != Least::none)
       for (const size_t column : {stands, moves}) cells.emplace_back(csv.number(row, column));

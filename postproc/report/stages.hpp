@@ -19,12 +19,12 @@ struct StageReport {
   std::string worst;  ///< the first stage that does not stand, else the most demanding; "" for neither
 };
 
-/// Of rings laid one by one from unloaded joints (results/stages.csv), with the heights of the rings.
-StageReport rings_laid(const Evaluation& evaluation, const CsvFile& stages);
+/// Of results/construction.csv, with what moves (results/failures.csv; none if nothing does) and the heights
+/// of the rings. `least`: the property of the fresh mortar that was sought.
+StageReport report_stages(const Evaluation& evaluation, StagedConstruction::Least least,
+                          const CsvFile& stages, const std::optional<CsvFile>& failures);
 
-/// Of any other construction (results/construction.csv), with what moves (results/failures.csv; none if
-/// nothing does). `least`: the property of the fresh mortar that was sought.
-StageReport blocks_laid(StagedConstruction::Least least, const CsvFile& stages,
-                        const std::optional<CsvFile>& failures);
+/// stages.csv of versions up to 0.3, in which the friction of fresh mortar was sought, as construction.csv.
+CsvFile from_stages_csv(CsvFile old);
 
 }  // namespace cupola

@@ -34,15 +34,10 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
 /// range.
 std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
 
-/// Construction ring by ring. Each stage is a static solve of the rings laid so far; the bed of the last ring
-/// has fresh mortar. On request, the critical fresh friction of each stage is searched for.
+/// Construction by courses or by blocks, from unloaded joints or from the state that the last stage left
+/// (construction.hpp). On request, the least cohesion or friction of fresh mortar is searched for with which
+/// each stage stands. Frames: every stage, at the time ring - 1 + share of the course that is laid.
 std::optional<Summary> run_staged(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);
-
-/// Construction by courses or by blocks, from the state that the last stage left (construction.hpp). On
-/// request, the least cohesion or friction of fresh mortar is searched for with which each stage stands.
-/// Frames: every stage, at the time ring - 1 + share of the course that is laid.
-std::optional<Summary> run_construction(const Case& scene, const Assembly& assembly,
-                                        const AnalysisSinks& sinks);
 
 /// Equilibria along a path of loads and support motions. Frames: every equilibrium, at its time.
 std::optional<Summary> run_path(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);

@@ -96,16 +96,10 @@ std::string motion_features(const Case& scene) {
 
 // --- staged
 
-std::optional<Summary> run_stages(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
-  return scene.analysis.staged.independent_rings() ? run_staged(scene, assembly, sinks)
-                                                   : run_construction(scene, assembly, sinks);
-}
-
 /// Each stage counts with its share of the courses of the complete model.
 double solves_of_stages(const Case& scene, const Assembly& assembly) {
   constexpr double kSolvesPerSearch = 4.0;  // most stages confirm the bracket of the stage before
   const StagedConstruction& staged = scene.analysis.staged;
-  if (staged.independent_rings()) return 0.5 * std::max(2, assembly.num_rings);
   const int rings = std::max(1, assembly.num_rings);
   const int last = staged.last_ring < 0 ? rings - 1 : std::min(staged.last_ring, rings - 1);
   double solves = 0.0;
@@ -192,7 +186,7 @@ constexpr std::array<AnalysisTraits, 6> kAnalysisTable{{
     // type                   in time  many   one solve  state of the residuals                run           solves            in words
     {AnalysisType::static_,   false,   false, true,      "",                                   run_as_built, one_solve,        describe_static, static_features},
     {AnalysisType::dynamic,   true,    true,  false,     "",                                   run_dynamic,  one_solve,        describe_motion, motion_features},
-    {AnalysisType::staged,    false,   true,  false,     "",                                   run_stages,   solves_of_stages, describe_stages, no_features},
+    {AnalysisType::staged,    false,   true,  false,     "",                                   run_staged,   solves_of_stages, describe_stages, no_features},
     {AnalysisType::limit,     false,   false, false,     " at the stable end of the bracket",  run_limit,    solves_of_limit,  describe_limit,  no_features},
     {AnalysisType::range,     false,   false, false,     "",                                   run_range,    solves_of_range,  describe_range,  range_features},
     {AnalysisType::path,      false,   true,  false,     "",                                   run_path,     solves_of_path,   describe_path,   no_features},

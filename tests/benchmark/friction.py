@@ -89,7 +89,7 @@ def brackets(bin_folder, work, width, models):
 def steps(bin_folder, work, count, models):
     motion = {"analysis.type": "dynamic", "analysis.tolerance": 1e-6, "analysis.time_step": 0.02,
               "analysis.duration": 0.02 * count, "joints.friction": 0.4}
-    stages = {"analysis.type": "staged", "analysis.staged.critical_friction": "false", "joints.friction": 0.4}
+    stages = {"analysis.type": "staged", "joints.friction": 0.4}
     print("model,analysis,associated s,Coulomb s,ratio")
     for name in models:
         model = Model(bin_folder, work, name)

@@ -18,7 +18,7 @@ limit="--set analysis.type=limit --set analysis.limit.parameter=friction --set a
   --set analysis.limit.high=0.12"
 range="--set analysis.type=range --set analysis.range.quantities=[thrust]"
 dynamic="--set analysis.type=dynamic --set analysis.duration=0.4 --set analysis.time_step=0.02 --set joints.friction=0.06"
-staged="--set analysis.type=staged --set analysis.staged.first_ring=30 --set analysis.staged.relative_width=0.1"
+staged="--set analysis.type=staged --set analysis.staged.first_ring=30 --set analysis.staged.least=friction --set analysis.staged.relative_width=0.1"
 path="--set analysis.type=path --set analysis.path.steps=10 --set analysis.path.control.block=40
   --set loads.dead_load_time.type=ramp --set loads.dead_load_time.duration=1"
 runs="static coulomb limit range dynamic staged path"

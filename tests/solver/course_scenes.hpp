@@ -152,4 +152,14 @@ inline Case course_case(double theta, double fresh_friction) {
   return scene;
 }
 
+/// On level ground, dry joints of compliance `c` per area.
+inline Case level_case(double c, bool carry) {
+  Case scene = course_case(0.0, 0.4);
+  scene.joints.strength = {};
+  scene.joints.compliance = {c, c, Compliance::Per::area};
+  scene.analysis.staged.first_ring = 0;
+  scene.analysis.staged.carry = carry;
+  return scene;
+}
+
 }  // namespace cupola::testing

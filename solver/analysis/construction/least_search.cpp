@@ -19,6 +19,11 @@ LeastSearch::Result LeastSearch::find(const TryValue& solve) {
     return trial;
   };
   Result result;
+  if (!last_) {  // many structures need none
+    const std::optional<LimitTrial> at_zero = attempt(0.0);
+    result.needs_none = at_zero && at_zero->outcome == equilibrium;
+    if (!at_zero || result.needs_none) return result;
+  }
   double low = last_ ? last_->second : 0.0, high = last_ ? last_->first : first_;
   // 1. Upwards to a value at which it stands
   double growth = last_ ? 1.0 + 2.0 * width_.relative : 2.0;

@@ -94,14 +94,12 @@ TEST(ReadCase, ReadsFreshMortarAndItsShortForm) {
   EXPECT_EQ(staged.fresh.friction, 0.25);
   EXPECT_EQ(staged.fresh.cohesion, 500.0);
   EXPECT_FALSE(staged.fresh.normal);
-  EXPECT_FALSE(staged.independent_rings());
   const Case again = read_case(scratch.write("again.yaml", c.effective_yaml));
   EXPECT_EQ(again.effective_yaml, c.effective_yaml);
   // The associated law jams open courses; it must be admitted.
   EXPECT_THROW(read_case(path, {"analysis.type=staged", "analysis.staged.unit=block"}), InputError);
   EXPECT_NO_THROW(read_case(
       path, {"analysis.type=staged", "analysis.staged.unit=block", "analysis.staged.allow_associated=true"}));
-  EXPECT_TRUE(read_case(path, {"analysis.type=staged"}).analysis.staged.independent_rings());
 }
 
 TEST(ReadCase, KeepsTheDefaultsOfTheStructs) {

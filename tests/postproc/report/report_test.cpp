@@ -208,9 +208,11 @@ std::string sliding_column(Status status, AnalysisType analysis) {
   writer.write_text("run.yaml", "title: column\n");
   if (in_time) writer.write_text("history.csv", history);
   if (staged)
-    writer.write_text("stages.csv",
-                      "ring,blocks,weight_N,verdict,speed_ratio,critical_stands,critical_moves,note\n"
-                      "0,1,50,equilibrium,1e-9,,,\n1,2,100,equilibrium,1e-9,,,\n2,3,150,moving,0.3,,,\n");
+    writer.write_text(
+        "construction.csv",
+        "stage,ring,laid,blocks,weight_N,verdict,speed_ratio,least_stands,least_moves,head_squeeze_m,"
+        "displacement_m,note\n"
+        "0,0,1,1,50,equilibrium,1e-9,,,,,\n1,1,1,2,100,equilibrium,1e-9,,,,,\n2,2,1,3,150,moving,0.3,,,,,\n");
   Summary summary = test::column_summary(a);
   summary.status = status;
   summary.analysis = analysis;

@@ -1,47 +1,27 @@
 #include <cmath>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
-#include "solver/analysis/analysis.hpp"
-#include "solver/dynamics/stages.hpp"
+#include "solver/analysis/construction/construction.hpp"
+#include "solver/dynamics/laying_order.hpp"
 #include "solver/runtime/threads.hpp"
+#include "tests/solver/construction_runs.hpp"
 #include "tests/solver/motion_scenes.hpp"
+
+// Whole courses from unloaded joints.
 
 namespace cupola::staged_test {
 namespace {
+
+using testing::build;
+using testing::Built;
 
 Case staged_case(double friction, double fresh) {
   Case scene = testing::make_case(friction, 1e-8, 0.01);
   scene.analysis.type = AnalysisType::staged;
   scene.analysis.staged.fresh.friction = fresh;
   return scene;
-}
-
-struct StagedResult {
-  Summary summary;
-  std::vector<Frame> frames;
-  std::vector<std::vector<std::string>> rows;  // of stages.csv, without the header
-};
-
-StagedResult run(const Case& scene, const Assembly& assembly, std::vector<std::string>* log = nullptr) {
-  StagedResult result;
-  std::string table;
-  AnalysisSinks sinks;
-  if (log != nullptr) sinks.log = [log](const std::string& line) { log->push_back(line); };
-  sinks.frame = [&](const Frame& frame) { result.frames.push_back(frame); };
-  sinks.table = [&](const std::string&, const std::string& text) { table = text; };
-  result.summary = run_staged(scene, assembly, sinks).value();
-  std::istringstream lines(table);
-  std::string line, cell;
-  std::getline(lines, line);
-  while (std::getline(lines, line)) {
-    result.rows.emplace_back();
-    std::istringstream cells(line);
-    while (std::getline(cells, cell, ',')) result.rows.back().push_back(cell);
-  }
-  return result;
 }
 
 // The same with hardened joints that hold by cohesion, which the fresh bed does not have yet.
@@ -52,40 +32,41 @@ TEST(Staged, TheFreshBedHasNoCohesion) {
     scene.loads.gravity = testing::tilted_gravity(0.3);
     scene.joints.compliance.per = Compliance::Per::area;
     scene.joints.strength.cohesion = 1e5;
-    scene.analysis.staged.critical_friction = false;
-    const StagedResult result = run(scene, wall);
-    ASSERT_EQ(result.rows.size(), 2U);
-    for (const auto& row : result.rows) EXPECT_EQ(row[3], fresh > 0.3 ? "equilibrium" : "moving") << fresh;
+    const Built result = build(scene, wall);
+    ASSERT_EQ(result.stages.size(), 2U);
+    for (const auto& row : result.stages)
+      EXPECT_EQ(row.at("verdict"), fresh > 0.3 ? "equilibrium" : "moving") << fresh;
   }
 }
 
 // A wall on a slope of 0.3: each course slides if the friction of the fresh mortar is below the slope.
 // Hardened joints hold.
-TEST(Staged, CriticalFreshFrictionEqualsTheSlope) {
+TEST(Staged, TheLeastFreshFrictionEqualsTheSlope) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 3);
   Case scene = staged_case(0.7, 0.31);
   scene.loads.gravity = testing::tilted_gravity(0.3);
-  const StagedResult built = run(scene, wall);
+  scene.analysis.staged.least = StagedConstruction::Least::friction;
+  const Built built = build(scene, wall);
   EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
-  ASSERT_EQ(built.rows.size(), 3u);
+  ASSERT_EQ(built.stages.size(), 3u);
   const double course = 3.0 * 0.5 * 0.3 * 1000.0 * testing::kG;
   for (size_t ring = 0; ring < 3; ++ring) {
-    const std::vector<std::string>& row = built.rows[ring];
-    EXPECT_EQ(row[0], std::to_string(ring));
-    EXPECT_NEAR(std::stod(row[2]) / (course * static_cast<double>(ring + 1)), 1.0, 1e-8);
-    EXPECT_EQ(row[3], "equilibrium");
-    EXPECT_NEAR(std::stod(row[5]), 0.3, 3e-3) << "bracket of 1e-2";
-    EXPECT_NEAR(std::stod(row[6]), 0.3, 3e-3);
-    EXPECT_GT(std::stod(row[5]), std::stod(row[6]));
+    const testing::TableRow& row = built.stages[ring];
+    EXPECT_EQ(row.at("ring"), std::to_string(ring));
+    EXPECT_NEAR(std::stod(row.at("weight_N")) / (course * static_cast<double>(ring + 1)), 1.0, 1e-8);
+    EXPECT_EQ(row.at("verdict"), "equilibrium");
+    EXPECT_NEAR(built.least_stands(ring), 0.3, 3e-3) << "bracket of 1e-2";
+    EXPECT_NEAR(built.least_moves(ring), 0.3, 3e-3);
+    EXPECT_GT(built.least_stands(ring), built.least_moves(ring));
   }
   ASSERT_TRUE(built.summary.critical);
   EXPECT_NEAR(built.summary.critical->value, 0.3, 3e-3);
 
   scene.analysis.staged.fresh.friction = 0.29;
-  scene.analysis.staged.critical_friction = false;
-  const StagedResult slides = run(scene, wall);
+  scene.analysis.staged.least = StagedConstruction::Least::none;
+  const Built slides = build(scene, wall);
   EXPECT_EQ(slides.summary.status, Status::moving);
-  EXPECT_NE(slides.summary.message.find("stages that do not stand with a fresh friction of 0.29: 3 of 3"),
+  EXPECT_NE(slides.summary.message.find("stages that stand with the mortar of the case: 0 of 3"),
             std::string::npos)
       << slides.summary.message;
   ASSERT_EQ(slides.frames.size(), 3u);
@@ -105,15 +86,17 @@ TEST(Staged, CriticalFreshFrictionEqualsTheSlope) {
 
 // On level ground no course slides, even without friction.
 TEST(Staged, ReportsStagesThatNeedNoFriction) {
-  const StagedResult built = run(staged_case(0.6, 0.1), testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 2));
+  Case scene = staged_case(0.6, 0.1);
+  scene.analysis.staged.least = StagedConstruction::Least::friction;
+  const Built built = build(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 2));
   EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
-  EXPECT_NE(built.summary.message.find("; 2 stages stand without friction"), std::string::npos)
+  EXPECT_NE(built.summary.message.find("; 2 stages stand without fresh friction"), std::string::npos)
       << built.summary.message;
   EXPECT_FALSE(built.summary.critical);
-  for (const std::vector<std::string>& row : built.rows) {
-    EXPECT_EQ(row[5], "0");
-    EXPECT_EQ(row[6], "");
-    EXPECT_EQ(row[7], "stands without friction");
+  for (const testing::TableRow& row : built.stages) {
+    EXPECT_EQ(row.at("least_stands"), "0");
+    EXPECT_EQ(row.at("least_moves"), "");
+    EXPECT_EQ(row.at("note"), "stands without friction");
   }
 }
 
@@ -123,8 +106,7 @@ TEST(Staged, FramesContainTheCompleteAssembly) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3);
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 1;
-  scene.analysis.staged.critical_friction = false;
-  const StagedResult built = run(scene, wall);
+  const Built built = build(scene, wall);
   ASSERT_EQ(built.frames.size(), 2u);
   EXPECT_EQ(built.frames[0].time, 1.0);
   ASSERT_EQ(built.frames[0].blocks.size(), static_cast<int>(wall.blocks.size()));
@@ -142,22 +124,19 @@ TEST(Staged, LoadsAndTiesActOnlyOnceTheirBlocksAreLaid) {
   tie.block_a = 1;
   tie.block_b = 7;  // in the last course
   scene.ties.pairs = {tie};
-  const ConstructionStage first = build_stage(wall, 0);
-  EXPECT_EQ(first.assembly.blocks.size(), 3u);
-  const Case at_first = case_of_stage(scene, first, 0.1, false);
-  EXPECT_TRUE(at_first.loads.forces.empty());
-  EXPECT_TRUE(at_first.ties.pairs.empty());
-  const ConstructionStage last = build_stage(wall, 2);
-  EXPECT_EQ(last.assembly.blocks.size(), wall.blocks.size());
-  const Case at_last = case_of_stage(scene, last, 0.1, true);
-  EXPECT_EQ(at_last.loads.forces.size(), 1u);
-  EXPECT_EQ(at_last.ties.pairs.size(), 1u);
+  Construction building(scene, wall, [](const std::string&) {});
+  for (const LaidBlocks& laid : laying_order(wall, scene.analysis.staged, 0, 2)) {
+    building.lay(laid.blocks, laid.ring);
+    const Model model = stage_problem(building.site(), building.state(), {}).model;
+    EXPECT_EQ(model.loads.points.size(), laid.ring == 2 ? 1U : 0U);
+    EXPECT_EQ(model.ties.size(), laid.ring == 2 ? 1U : 0U);
+  }
 }
 
 TEST(Staged, RefusesAFirstRingAboveTheLast) {
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 7;
-  EXPECT_THROW(run(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3)), InputError);
+  EXPECT_THROW(build(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3)), InputError);
 }
 
 // Threads solve whole stages; what is recorded, and in which order, does not depend on them.
@@ -165,14 +144,17 @@ TEST(Staged, IsTheSameOnAnyNumberOfThreads) {
   const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 6);
   Case scene = staged_case(0.7, 0.31);
   scene.loads.gravity = testing::tilted_gravity(0.3);
-  std::vector<StagedResult> results;
-  std::vector<std::vector<std::string>> logs;
+  scene.analysis.staged.least = StagedConstruction::Least::friction;
+  std::vector<Built> results;
+  std::vector<std::vector<std::string>> logs(2);
   for (const int threads : {1, 3}) {
     set_num_threads(threads);
-    results.push_back(run(scene, wall, &logs.emplace_back()));
+    AnalysisSinks sinks;
+    sinks.log = [&log = logs[results.size()]](const std::string& line) { log.push_back(line); };
+    results.push_back(build(scene, wall, sinks));
   }
   set_num_threads(1);
-  EXPECT_EQ(results[0].rows, results[1].rows);
+  EXPECT_EQ(results[0].stages, results[1].stages);
   EXPECT_EQ(results[0].summary.message, results[1].summary.message);
   EXPECT_EQ(logs[0], logs[1]);
   ASSERT_EQ(results[0].frames.size(), 6u);

@@ -1,0 +1,136 @@
+#include "solver/analysis/construction/solved_stage.hpp"
+
+#include <fmt/format.h>
+
+#include "assembly/files/csv_columns.hpp"
+#include "assembly/model/block_names.hpp"
+#include "solver/analysis/construction/stage_measures.hpp"
+
+namespace cupola {
+namespace {
+
+using Least = StagedConstruction::Least;
+
+LeastSearch::Result find_least(Construction* building, LeastSearch* search, SolvedStage* stage) {
+  double nearest = -1.0;
+  return search->find([&](double value) -> std::optional<LimitTrial> {
+    const StaticSolution solution = building->solve(value);
+    stage->iterations += solution.iterations;
+    if (solution.outcome == StaticOutcome::moving && value > nearest) {
+      nearest = value;
+      stage->falling = falling_blocks(building->problem().model, solution.step_solution.v);
+    }
+    return LimitTrial{value, solution.outcome, solution.speed_ratio};
+  });
+}
+
+/// A row of construction.csv.
+struct StageRow {
+  int number;
+  const LaidBlocks& laid;
+  const Construction& building;
+  const SolvedStage& stage;
+  bool stands() const { return stage.solution.outcome == StaticOutcome::equilibrium; }
+};
+
+constexpr CsvColumn<StageRow> kConstructionColumns[] = {
+    {"stage", [](const StageRow& r) { return std::to_string(r.number); }},
+    {"ring", [](const StageRow& r) { return std::to_string(r.laid.ring); }},
+    {"laid", [](const StageRow& r) { return std::to_string(r.laid.blocks.size()); }},
+    {"blocks", [](const StageRow& r) { return std::to_string(r.building.problem().model.num_free()); }},
+    {"weight_N",
+     [](const StageRow& r) { return fmt::format("{:.9g}", r.building.problem().model.free_weight); }},
+    {"verdict", [](const StageRow& r) { return to_string(r.stage.solution.outcome); }},
+    {"speed_ratio", [](const StageRow& r) { return fmt::format("{:.6e}", r.stage.solution.speed_ratio); }},
+    {"least_stands",
+     [](const StageRow& r) -> std::string {
+       const LeastSearch::Result& least = r.stage.least;
+       if (least.bracket.found) return fmt::format("{:.9g}", least.bracket.stable.value);
+       return least.needs_none ? "0" : "";
+     }},
+    {"least_moves",
+     [](const StageRow& r) {
+       const Bracket& bracket = r.stage.least.bracket;
+       return bracket.found ? fmt::format("{:.9g}", bracket.moving.value) : "";
+     }},
+    {"head_squeeze_m",
+     [](const StageRow& r) {
+       return r.stands() ? fmt::format("{:.6e}", head_squeeze(r.building, r.stage.solution)) : "";
+     }},
+    {"displacement_m",
+     [](const StageRow& r) {
+       return r.stands() ? fmt::format("{:.6e}", largest_displacement(r.building, r.stage.solution)) : "";
+     }},
+    {"note",
+     [](const StageRow& r) { return least_note(r.stage, r.building.site().scene.analysis.staged.least); }},
+};
+
+/// A block that leaves its place in a stage: a row of failures.csv.
+struct FailureRow {
+  int stage, ring;
+  const Assembly& assembly;
+  const FallingBlock& falling;
+};
+
+constexpr CsvColumn<FailureRow> kFailureColumns[] = {
+    {"stage", [](const FailureRow& r) { return std::to_string(r.stage); }},
+    {"ring", [](const FailureRow& r) { return std::to_string(r.ring); }},
+    {"block", [](const FailureRow& r) { return block_label(r.assembly, r.falling.block); }},
+    {"course", [](const FailureRow& r) { return std::to_string(r.assembly.blocks[r.falling.block].ring); }},
+    {"how", [](const FailureRow& r) { return to_string(r.falling.mode); }},
+    {"relative_speed", [](const FailureRow& r) { return fmt::format("{:.4f}", r.falling.speed); }},
+};
+
+}  // namespace
+
+SolvedStage solve_stage(Construction* building, LeastSearch* search) {
+  SolvedStage stage;
+  if (building->site().scene.analysis.staged.least != Least::none)
+    stage.least = find_least(building, search, &stage);
+  stage.solution = building->solve();
+  stage.iterations += stage.solution.iterations;
+  if (stage.solution.outcome == StaticOutcome::moving)
+    stage.falling = falling_blocks(building->problem().model, stage.solution.step_solution.v);
+  return stage;
+}
+
+LeastSearch first_search(const Case& scene) {
+  constexpr double kFirstCohesion = 1000.0, kMostCohesion = 1e6, kNarrowestCohesion = 0.1;  // Pa
+  constexpr double kFirstFriction = 0.5, kMostFriction = 10.0, kNarrowestFriction = 1e-4;
+  const StagedConstruction& staged = scene.analysis.staged;
+  if (staged.least == Least::cohesion)
+    return {kFirstCohesion, kMostCohesion, {staged.relative_width, kNarrowestCohesion}};
+  const Joints& joints = scene.joints;
+  const double hardened = joints.bed ? joints.bed->friction.value_or(joints.friction) : joints.friction;
+  return {
+      hardened > 0.0 ? hardened : kFirstFriction, kMostFriction, {staged.relative_width, kNarrowestFriction}};
+}
+
+std::string construction_header() {
+  return csv_header(kConstructionColumns) + "\n";
+}
+
+std::string failures_header() {
+  return csv_header(kFailureColumns) + "\n";
+}
+
+std::string construction_row(int number, const LaidBlocks& laid, const Construction& building,
+                             const SolvedStage& stage) {
+  return csv_row(kConstructionColumns, StageRow{number, laid, building, stage}) + "\n";
+}
+
+std::string failure_rows(int number, const LaidBlocks& laid, const Assembly& assembly,
+                         const SolvedStage& stage) {
+  std::string rows;
+  for (const FallingBlock& block : stage.falling)
+    rows += csv_row(kFailureColumns, FailureRow{number, laid.ring, assembly, block}) + "\n";
+  return rows;
+}
+
+std::string least_note(const SolvedStage& stage, Least property) {
+  if (property == Least::none) return "";
+  return stage.least.needs_none ? fmt::format("stands without {}", to_string(property))
+                                : stage.least.bracket.message;
+}
+
+}  // namespace cupola

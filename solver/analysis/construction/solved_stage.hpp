@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "solver/analysis/construction/construction.hpp"
+#include "solver/analysis/construction/falling_blocks.hpp"
+#include "solver/analysis/construction/least_search.hpp"
+#include "solver/dynamics/laying_order.hpp"
+
+namespace cupola {
+
+/// A stage that was solved.
+struct SolvedStage {
+  StaticSolution solution;            ///< with the mortar of the case
+  LeastSearch::Result least;          ///< of the property of fresh mortar that is sought
+  std::vector<FallingBlock> falling;  ///< in it or, if it stands, in the trial that moves nearest to `least`
+  int iterations = 0;                 ///< of all its solves
+};
+
+/// Solves the stage that is laid. `search`: for the property that analysis.staged.least names.
+SolvedStage solve_stage(Construction* building, LeastSearch* search);
+
+/// The search of the first stage.
+LeastSearch first_search(const Case& scene);
+
+// Rows of construction.csv and failures.csv, with the ends of their lines.
+std::string construction_header();
+std::string failures_header();
+std::string construction_row(int number, const LaidBlocks& laid, const Construction& building,
+                             const SolvedStage& stage);
+std::string failure_rows(int number, const LaidBlocks& laid, const Assembly& assembly,
+                         const SolvedStage& stage);
+/// How the search ended, or nothing.
+std::string least_note(const SolvedStage& stage, StagedConstruction::Least property);
+
+}  // namespace cupola

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include "tests/solver/construction_runs.hpp"
+
+// Joints, ties and supports of a structure that is built block by block.
+
+namespace cupola::carried_test {
+namespace {
+
+using testing::build;
+using testing::Built;
+using testing::level_case;
+using testing::normal_force;
+
+// Column of m cubes of weight W with joints of compliance c over the area A. A block is laid where the one
+// below then is, and settles by what is laid on the joints below it from then on: W c / A per joint and
+// stage. The joint of the block just laid is fresh.
+TEST(Construction, CarriedColumnSettlesFromTheBirthOfEachBlock) {
+  const int m = 4;
+  const Assembly column = testing::stack_of_cubes(1.0, std::vector<double>(m, 1000.0));
+  const double c = 1e-9, fresh = 5e-9, weight = 1000.0 * testing::kG;
+  std::vector<double> sank(m, 0.0);
+  for (int stage = 0; stage < m; ++stage) {
+    if (stage > 0) sank[stage] = sank[stage - 1];
+    for (int k = 0; k <= stage; ++k)
+      for (int joint = 0; joint <= k; ++joint) sank[k] += (joint == stage ? fresh : c) * weight;
+  }
+  for (const bool carry : {false, true}) {
+    Case scene = level_case(c, carry);
+    if (carry) scene.analysis.staged.fresh.normal = fresh;
+    const Built built = build(scene, column);
+    ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+    ASSERT_EQ(built.frames.size(), static_cast<size_t>(m));
+    for (int k = 0; k < m; ++k) {
+      double from_rest = 0.0;
+      for (int j = 0; j <= k; ++j) from_rest += (m - j) * c * weight;
+      const double found = -built.frames.back().blocks.displacement[k + 1].z();
+      EXPECT_NEAR(found / (carry ? sank[k] : from_rest), 1.0, 1e-4)
+          << "block " << k << (carry ? ", carried" : "");
+      EXPECT_NEAR(normal_force(built.frames.back(), k, k + 1) / ((m - k) * weight), 1.0, 1e-4);
+    }
+  }
+}
+
+// Cubes of weight W on joints of compliance c; a tie of stiffness k and prestress P from the floor to the
+// second one. The tie is born with its prestress when that block is laid, and slackens by what is laid from
+// then on: by the joints below it, 2 k c (W + its own change of force) per block. Built at once it also
+// slackens by what lay there before.
+TEST(Construction, CarriedTieSlackensFromItsBirth) {
+  const double c = 1e-9, k = 1e8, prestress = 4e4, weight = 1000.0 * testing::kG;
+  for (const bool carry : {false, true}) {
+    Case scene = level_case(c, carry);
+    PairTie tie;
+    tie.block_a = 0;
+    tie.block_b = 2;
+    tie.stiffness = k;
+    tie.prestress = prestress;
+    scene.ties.pairs = {tie};
+    const Built built = build(scene, testing::stack_of_cubes(1.0, std::vector<double>(3, 1000.0)));
+    ASSERT_EQ(built.frames.size(), 3u) << built.summary.message;
+    EXPECT_EQ(built.frames[0].ties.size(), 0);
+    ASSERT_EQ(built.frames[2].ties.size(), 1);
+    const double loads = carry ? 4.0 : 5.0;  // on the joints below, times W
+    EXPECT_NEAR(built.frames[2].ties.force[0], (prestress - loads * k * c * weight) / (1.0 + 2.0 * k * c),
+                1.0)
+        << (carry ? "carried" : "at once");
+  }
+}
+
+// A beam of weight W on three supports, on joints of compliance c. The one in the middle sinks by d once the
+// beam is laid: it carries (W - 2 d / c) / 3.
+TEST(Construction, SupportsMoveOnceTheStructureIsComplete) {
+  const double c = 1e-8, down = 2e-5;
+  std::vector<testing::BoxSpec> boxes;
+  for (const double x : {-2.0, 0.0, 2.0})
+    boxes.push_back({.center = {x, 0, -0.5}, .size = {1, 1, 1}, .fixed = true});
+  boxes.push_back({.center = {0, 0, 0.5}, .size = {5, 1, 1}, .density = 1000.0});
+  for (const bool carry : {false, true}) {
+    Case scene = level_case(c, carry);
+    scene.supports.moves = {
+        SupportMove{.region = {.blocks = {1}}, .displacement = {0, 0, -down}, .time = {}}};
+    const Built built = build(scene, testing::make_boxes(boxes));
+    ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+    const double weight = 5000.0 * testing::kG;
+    EXPECT_NEAR(normal_force(built.frames.back(), 1, 3), (weight - 2.0 * down / c) / 3.0, 1.0);
+    EXPECT_NEAR(built.frames.back().blocks.displacement[1].z(), -down, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::carried_test
