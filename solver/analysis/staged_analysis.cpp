@@ -131,7 +131,7 @@ void ConstructionRun::advance_at_once() {
 /// a space proportional to n, and so have the first stage that fails, those with which the construction may
 /// end, and the last one.
 bool ConstructionRun::has_frame(const SolvedStage& stage) const {
-  constexpr int kMost = 100;
+  constexpr int kMost = 50;
   const int number = progress_.next, count = static_cast<int>(stages_.size());
   const int every = (count + kMost - 1) / kMost;
   const bool may_end = staged_.carry && !stage.least.bracket.found;

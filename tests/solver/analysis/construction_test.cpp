@@ -82,7 +82,7 @@ TEST(Construction, HoldingLowerCoursesKeepsTheLeastCohesion) {
   EXPECT_NEAR(least[1] / least[0], 1.0, 0.01) << "brackets of 1 %";
 }
 
-// Of 120 stages every second one has a frame, and the last one; all have a row.
+// Of 120 stages every third one has a frame, and the last one; all have a row.
 TEST(Construction, LongOnesHaveFramesOfSomeStages) {
   constexpr int kStages = 120;
   std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {10, 400, 1}, .fixed = true}};
@@ -92,9 +92,9 @@ TEST(Construction, LongOnesHaveFramesOfSomeStages) {
   scene.analysis.staged.first_ring = 0;
   const Built built = build(scene, testing::make_boxes(boxes));
   ASSERT_EQ(built.stages.size(), static_cast<size_t>(kStages)) << built.summary.message;
-  ASSERT_EQ(built.frames.size(), static_cast<size_t>(kStages / 2 + 1));
+  ASSERT_EQ(built.frames.size(), static_cast<size_t>(kStages / 3 + 1));
   for (size_t i = 0; i + 1 < built.frames.size(); ++i)
-    EXPECT_EQ(built.frames[i].owner, fmt::format("stage {}", 2 * i));
+    EXPECT_EQ(built.frames[i].owner, fmt::format("stage {}", 3 * i));
   EXPECT_EQ(built.frames.back().owner, "stage 119");
 }
 
