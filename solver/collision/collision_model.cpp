@@ -83,6 +83,22 @@ void add_part(const Assembly& assembly, const Part& part, CollisionModel* model)
   model->parts.push_back(shape);
 }
 
+/// Room for all faces, and for the edges and vertices of closed parts whose corners join three edges. Growing
+/// arrays would write each number twice.
+void reserve(const Assembly& assembly, CollisionModel* model) {
+  std::size_t faces = 0, corners = 0;
+  for (const Part& part : assembly.parts) {
+    faces += part.num_faces;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      corners += assembly.face(f).size();
+  }
+  model->faces.reserve(faces);
+  model->corners.reserve(corners);
+  model->vertices.reserve(corners / 3);
+  model->edges.reserve(corners / 2);
+  model->parts.reserve(assembly.parts.size());
+}
+
 /// Smallest among the enclosing boxes whose axes are the normal and the longest edge of an outer face. Exact
 /// for a brick.
 OrientedBox smallest_box(const CollisionModel& model, int block) {
@@ -125,6 +141,7 @@ OrientedBox CollisionModel::box_at(int block, const Pose& pose, double padding) 
 
 CollisionModel make_collision_model(const Assembly& assembly) {
   CollisionModel model;
+  reserve(assembly, &model);
   model.block_radius.resize(assembly.blocks.size(), 0.0);
   model.part_start.resize(assembly.blocks.size() + 1, 0);
   for (const Part& part : assembly.parts) {

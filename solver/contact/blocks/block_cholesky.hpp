@@ -1,12 +1,32 @@
 #pragma once
 
+#include <memory>
+#include <new>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "solver/contact/blocks/panel_factor.hpp"
 #include "solver/contact/blocks/single_factor.hpp"
 
 namespace cupola {
+
+/// Leaves new numbers as they are: zeros would be written by one thread, and once more than needed.
+template <class T>
+struct UninitializedAllocator : std::allocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UninitializedAllocator<U>;
+  };
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class Value>
+  void construct(U* at, Value&& value) {
+    ::new (static_cast<void*>(at)) U(std::forward<Value>(value));
+  }
+};
 
 /// Sparse left-looking Cholesky factor H = L L^T of a BlockMatrix, by panels (factor_structure.hpp):
 ///
@@ -49,10 +69,10 @@ class BlockCholesky {
 
   BlockPattern pattern_;
   FactorStructure structure_;
-  int m_ = 6;                                  ///< unknowns per block
-  std::vector<double> values_;                 ///< of the panels, by columns
-  std::vector<std::vector<double>> products_;  ///< work array of each thread
-  std::optional<SingleFactor> single_;         ///< copy of the factor; none until it is needed
+  int m_ = 6;                                                   ///< unknowns per block
+  std::vector<double, UninitializedAllocator<double>> values_;  ///< of the panels, by columns
+  std::vector<std::vector<double>> products_;                   ///< work array of each thread
+  std::optional<SingleFactor> single_;  ///< copy of the factor; none until it is needed
   bool valid_ = false;
 };
 

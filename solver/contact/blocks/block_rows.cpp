@@ -16,8 +16,9 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 constexpr double kOperationsPerEntry = 72.0;  // of a product with a vector
 
 /// Columns of row i of A B, ascending. `seen_in` marks the columns found so far by the number of the row.
-void columns_of_product(const BlockRows& A, const BlockRows& B, int i, std::vector<int>* seen_in,
-                        std::vector<int>* columns) {
+template <class Left, class Right>
+void columns_of_product(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B, int i,
+                        std::vector<int>* seen_in, std::vector<int>* columns) {
   columns->clear();
   for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
     const int row = A.column[k];
@@ -63,18 +64,30 @@ BlockRows both_triangles(const BlockPattern& pattern, const BlockMatrix& matrix)
   std::partial_sum(A.start.begin(), A.start.end(), A.start.begin());
   A.column.resize(A.start.back());
   A.value.resize(A.start.back());
-  std::vector<int> next(A.start.begin(), A.start.end() - 1);
-  const auto put = [&](int row, int column, const auto& block) {
+  std::vector<int> next(A.start.begin(), A.start.end() - 1), source(A.column.size());
+  const auto put = [&](int row, int column, int from) {
     A.column[next[row]] = column;
-    A.value[next[row]++] = block;
+    source[next[row]++] = from;
   };
   for (int column = 0; column < n; ++column) {  // ascending, so entries left of a diagonal precede it
-    put(column, column, matrix.diagonal[column]);
+    put(column, column, 0);
     for (int p = pattern.column_start[column]; p < pattern.column_start[column + 1]; ++p) {
-      put(column, pattern.row[p], matrix.lower[p].transpose());
-      put(pattern.row[p], column, matrix.lower[p]);
+      put(column, pattern.row[p], -(p + 1));
+      put(pattern.row[p], column, p + 1);
     }
   }
+  const auto count = static_cast<int>(source.size());
+  share_range(kOperationsPerEntry * count, count, [&](int first, int last) {
+    for (int k = first; k < last; ++k) {
+      const int from = source[k];
+      if (from == 0)
+        A.value[k] = matrix.diagonal[A.column[k]];
+      else if (from > 0)
+        A.value[k] = matrix.lower[from - 1];
+      else
+        A.value[k] = matrix.lower[-from - 1].transpose();
+    }
+  });
   return A;
 }
 
@@ -86,7 +99,8 @@ VecX multiply(const SingleBlockRows& A, const VecX& x) {
   return product(A, x);
 }
 
-BlockRows multiply(const BlockRows& A, const BlockRows& B) {
+template <class Left, class Right>
+BlockRows multiply(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B) {
   constexpr double kOperationsPerEntry = 3000.0;  // each entry of A multiplies a row of B
   const double work = kOperationsPerEntry * static_cast<double>(A.value.size());
   CUPOLA_ASSERT(A.num_columns == B.num_rows());
@@ -114,32 +128,47 @@ BlockRows multiply(const BlockRows& A, const BlockRows& B) {
       }
       for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
         const int row = A.column[k];
-        for (int q = B.start[row]; q < B.start[row + 1]; ++q)
-          C.value[entry[B.column[q]]] += A.value[k].lazyProduct(B.value[q]);
+        const Mat6 left = A.value[k].template cast<double>();
+        for (int q = B.start[row]; q < B.start[row + 1]; ++q) {
+          const Mat6 right = B.value[q].template cast<double>();
+          C.value[entry[B.column[q]]] += left.lazyProduct(right);
+        }
       }
     }
   });
   return C;
 }
 
-BlockRows transpose(const BlockRows& A) {
-  BlockRows T;
+template BlockRows multiply(const BlockRows& A, const BlockRows& B);
+template BlockRows multiply(const BlockRows& A, const SingleBlockRows& B);
+template BlockRows multiply(const SingleBlockRows& A, const BlockRows& B);
+
+template <class Scalar>
+BlockRowsOf<Scalar> transpose(const BlockRowsOf<Scalar>& A) {
+  BlockRowsOf<Scalar> T;
   T.num_columns = A.num_rows();
   T.start.assign(A.num_columns + 1, 0);
   for (const int column : A.column) ++T.start[column + 1];
   std::partial_sum(T.start.begin(), T.start.end(), T.start.begin());
   T.column.resize(A.column.size());
   T.value.resize(A.value.size());
-  std::vector<int> next(T.start.begin(), T.start.end() - 1);
+  std::vector<int> next(T.start.begin(), T.start.end() - 1), source(A.value.size());
   for (int i = 0; i < A.num_rows(); ++i) {
     for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
       const int at = next[A.column[k]]++;
       T.column[at] = i;
-      T.value[at] = A.value[k].transpose();
+      source[at] = k;
     }
   }
+  const auto count = static_cast<int>(source.size());
+  share_range(kOperationsPerEntry * count, count, [&](int first, int last) {
+    for (int at = first; at < last; ++at) T.value[at] = A.value[source[at]].transpose();
+  });
   return T;
 }
+
+template BlockRows transpose(const BlockRows& A);
+template SingleBlockRows transpose(const SingleBlockRows& A);
 
 SingleBlockRows in_single_precision(const BlockRows& A) {
   SingleBlockRows S{A.start, A.column, {}, A.num_columns};

@@ -26,10 +26,12 @@ BlockRows both_triangles(const BlockPattern& pattern, const BlockMatrix& matrix)
 VecX multiply(const BlockRows& A, const VecX& x);
 VecX multiply(const SingleBlockRows& A, const VecX& x);
 
-/// A B, on num_threads() threads. Same bits for any number of threads.
-BlockRows multiply(const BlockRows& A, const BlockRows& B);
+/// A B in double precision, on num_threads() threads. Same bits for any number of threads.
+template <class Left, class Right>
+BlockRows multiply(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B);
 
-BlockRows transpose(const BlockRows& A);
+template <class Scalar>
+BlockRowsOf<Scalar> transpose(const BlockRowsOf<Scalar>& A);
 
 SingleBlockRows in_single_precision(const BlockRows& A);
 

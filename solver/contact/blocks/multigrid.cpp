@@ -218,11 +218,10 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     std::optional<AggregateMotions> aggregated = aggregate_motions(motions, aggregates);
     if (!aggregated) return false;
     const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
-    const BlockRows P = smoothed(A, level.inverse, aggregated->T, lambda), P_transposed = transpose(P);
-    BlockRows coarse = multiply(P_transposed, multiply(A, P));
+    level.P = in_single_precision(smoothed(A, level.inverse, aggregated->T, lambda));
+    level.P_transposed = transpose(level.P);
+    BlockRows coarse = multiply(level.P_transposed, multiply(A, level.P));
     level.A = in_single_precision(A);
-    level.P = in_single_precision(P);
-    level.P_transposed = in_single_precision(P_transposed);
     A = std::move(coarse);
     levels_.push_back(std::move(level));
     motions = std::move(aggregated->coarse);

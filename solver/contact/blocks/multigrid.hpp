@@ -23,7 +23,7 @@ namespace cupola {
 /// hierarchy ends there with a symmetric sweep.
 ///
 /// Matrices are kept in single precision, in which they remain symmetric, because a cycle is memory-bound.
-/// Vectors are in double precision.
+/// Vectors are in double precision, and so are the products that give the matrix of a coarser level.
 ///
 /// Runs on num_threads() threads, with the same bits for any number: sweeps work on pieces of fixed size.
 class Multigrid {

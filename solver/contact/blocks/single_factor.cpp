@@ -11,8 +11,7 @@ extern "C" void dtrtri_(const char* uplo, const char* diag, const int* n, double
 
 namespace cupola {
 
-SingleFactor::SingleFactor(const FactorStructure& structure, int unknowns,
-                           const std::vector<double>& values) {
+SingleFactor::SingleFactor(const FactorStructure& structure, int unknowns, std::span<const double> values) {
   // The rounding of L changes the solution by about 6e-8 times the condition number of L L^T. The smallest
   // eigenvalue of systems M + D G D^T with M = I is at least 1, and the largest is of the size of the largest
   // squared diagonal entry of L.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/contact/blocks/factor_structure.hpp"
@@ -16,7 +17,7 @@ namespace cupola {
 class SingleFactor {
  public:
   /// `values`: of the panels of the factor of I + D G D^T, masses scaled to one, with `unknowns` per block.
-  SingleFactor(const FactorStructure& structure, int unknowns, const std::vector<double>& values);
+  SingleFactor(const FactorStructure& structure, int unknowns, std::span<const double> values);
 
   /// False if rounding to single precision may change the solution by more than a few percent.
   bool is_accurate() const { return accurate_; }
