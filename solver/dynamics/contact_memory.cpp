@@ -13,7 +13,6 @@ namespace {
 ContactMemories first_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
   ContactMemories first;
   for (const Contact& contact : contacts) first.ids.push_back(contact.id);
-  first.values.resize(contacts.size());
   first.ties = old.ties;
   first.as_built = false;
   return first;
@@ -30,7 +29,7 @@ class PatchDamage {
   explicit PatchDamage(const ContactMemories& memories) {
     for (size_t i = 0; i < memories.ids.size(); ++i) {
       auto& [sum, count] = patches_[patch_of(memories.ids[i])];
-      sum += memories.values[i].joint.damage;
+      sum += memories.of(i).joint.damage;
       ++count;
     }
   }
@@ -46,8 +45,18 @@ class PatchDamage {
 
 }  // namespace
 
+const ContactMemory& ContactMemories::of(std::size_t contact) const {
+  static const ContactMemory first;
+  return values.empty() ? first : values[contact];
+}
+
+std::vector<ContactMemory>& ContactMemories::stored() {
+  values.resize(ids.size());
+  return values;
+}
+
 ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts) {
-  CUPOLA_ASSERT(old.ids.size() == old.values.size());
+  CUPOLA_ASSERT(old.values.empty() || old.ids.size() == old.values.size());
   if (old.as_built) return first_memories(old, contacts);
   const auto same_id = [](const ContactId& id, const Contact& contact) { return id == contact.id; };
   if (std::equal(old.ids.begin(), old.ids.end(), contacts.begin(), contacts.end(), same_id)) return old;
@@ -62,7 +71,7 @@ ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& 
   for (size_t i = 0; i < contacts.size(); ++i) {
     const auto found = index.find(contacts[i].id);
     if (found != index.end()) {
-      matched.values[i] = old.values[found->second];
+      matched.values[i] = old.of(found->second);
     } else {
       if (!damage) damage.emplace(old);
       matched.values[i].joint.damage = damage->at(contacts[i].id);

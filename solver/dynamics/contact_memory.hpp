@@ -41,9 +41,12 @@ struct TieMemory {
 /// Memories of the contacts of one step, in the order of the contacts.
 struct ContactMemories {
   std::vector<ContactId> ids;         ///< (nc)
-  std::vector<ContactMemory> values;  ///< (nc)
+  std::vector<ContactMemory> values;  ///< (nc), or empty: nothing has happened to any contact
   std::vector<TieMemory> ties;        ///< (number of ties), or empty before the first step
   bool as_built = true;               ///< no contacts were matched yet
+
+  const ContactMemory& of(std::size_t contact) const;
+  std::vector<ContactMemory>& stored();  ///< values of all contacts
 };
 
 /// Transfers memories to a new set of contacts by identity. A contact without an old memory starts unloaded.

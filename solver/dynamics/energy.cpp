@@ -40,10 +40,10 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
     const Eigen::Matrix<double, 6, 1> v = state.v.segment<6>(6 * i);
     energy.kinetic += 0.5 * v.dot(mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB) * v);
   }
-  CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
-  for (size_t i = 0; i < memories.values.size(); ++i) {
+  CUPOLA_ASSERT(memories.ids.size() == contacts.points.size());
+  for (size_t i = 0; i < contacts.points.size(); ++i) {
     const JointLaw law = joint_law(model, contacts, contacts.points[i], state.time);
-    const ContactMemory& memory = memories.values[i];
+    const ContactMemory& memory = memories.of(i);
     if (law.compliance_normal > 0.0)
       energy.elastic += 0.5 * memory.elastic_gap * memory.elastic_gap / law.compliance_normal;
     if (law.compliance_tangential > 0.0)

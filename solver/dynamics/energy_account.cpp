@@ -15,10 +15,10 @@ double compliance(const StepProblem& step, Eigen::Index row, const StepOptions& 
 
 std::vector<double> spring_energies(const StepProblem& step, const ContactMemories& memories,
                                     const StepOptions& options) {
-  std::vector<double> energies(memories.values.size(), 0.0);
+  std::vector<double> energies(memories.ids.size(), 0.0);
   for (size_t i = 0; i < energies.size(); ++i) {
     const auto row = 3 * static_cast<Eigen::Index>(i);
-    const ContactMemory& memory = memories.values[i];
+    const ContactMemory& memory = memories.of(i);
     const double normal = compliance(step, row, options), tangential = compliance(step, row + 1, options);
     if (normal > 0.0) energies[i] += 0.5 * memory.elastic_gap * memory.elastic_gap / normal;
     if (tangential > 0.0) energies[i] += 0.5 * memory.elastic_slip_A.squaredNorm() / tangential;
@@ -136,7 +136,7 @@ StepStart begin_account(const Model& model, const State& state, const StepProble
                         const ContactMemories& memories, const StepOptions& options) {
   StepStart start{
       state, spring_energies(step, memories, options), {}, tie_energy(model, state.poses, memories)};
-  for (const ContactMemory& memory : memories.values) start.elastic_gap.push_back(memory.elastic_gap);
+  for (size_t i = 0; i < memories.ids.size(); ++i) start.elastic_gap.push_back(memories.of(i).elastic_gap);
   return start;
 }
 

@@ -40,7 +40,7 @@ ScenePart part_of(const Model& model, const State& state, const ContactSet& cont
     part.contact_rows.push_back(i);
     part.contacts.points.push_back(contacts.points[i]);
     part.memories.ids.push_back(memories.ids[i]);
-    part.memories.values.push_back(memories.values[i]);
+    part.memories.values.push_back(memories.of(i));
   }
   return part;
 }
@@ -90,11 +90,10 @@ bool update_sleep(const Sleep& sleep, const std::vector<int>& islands, const std
 ReducedScene reduce_to_awake(const Model& model, const State& state, const ContactSet& contacts,
                              const ContactMemories& memories, const SleepState& sleep_state, double h) {
   CUPOLA_ASSERT(static_cast<int>(sleep_state.asleep.size()) == model.num_free());
-  CUPOLA_ASSERT(memories.values.size() == contacts.points.size() && h > 0.0);
+  CUPOLA_ASSERT(memories.ids.size() == contacts.points.size() && h > 0.0);
   ReducedScene scene{part_of(model, state, contacts, memories, sleep_state.asleep, 0), {}, {}};
   for (size_t i = 0; i < contacts.points.size(); ++i)
-    scene.forces.contacts.push_back(contact_frame(contacts.points[i].normal) * memories.values[i].impulse /
-                                    h);
+    scene.forces.contacts.push_back(contact_frame(contacts.points[i].normal) * memories.of(i).impulse / h);
   const ScenePart asleep = part_of(model, state, contacts, memories, sleep_state.asleep, 1);
   JointForces carried;
   for (const int row : asleep.contact_rows) carried.contacts.push_back(scene.forces.contacts[row]);

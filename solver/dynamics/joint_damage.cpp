@@ -62,7 +62,7 @@ StepBond bond_in_step(const JointLaw& law, const JointDamage& joint) {
 
 void begin_step(const ContactSet& contacts, ContactMemories* memories) {
   for (size_t i = 0; i < contacts.points.size(); ++i) {
-    JointDamage& joint = memories->values[i].joint;
+    JointDamage& joint = memories->stored()[i].joint;
     joint.step_damage = joint.damage;
     joint.bears = contacts.points[i].gap + joint.crushing < joint.opening;
   }
@@ -79,7 +79,7 @@ bool refine_step(const Model& model, const State& state, const ContactSet& conta
   std::vector<JointDamage> refined;
   bool again = false;
   for (int i = 0; i < step.num_contacts; ++i) {
-    JointDamage joint = memories->values[i].joint;
+    JointDamage joint = memories->of(i).joint;
     const Contact& contact = contacts.points[i];
     const JointLaw law = joint_law(model, contacts, contact, end);
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
@@ -93,7 +93,7 @@ bool refine_step(const Model& model, const State& state, const ContactSet& conta
     refined.push_back(joint);
   }
   if (!again) return false;
-  for (size_t i = 0; i < refined.size(); ++i) memories->values[i].joint = refined[i];
+  for (size_t i = 0; i < refined.size(); ++i) memories->stored()[i].joint = refined[i];
   return true;
 }
 

@@ -67,7 +67,7 @@ ContactMemories memories_at_rest(const Model& model, const State& rest,
   for (size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
     const Vec3 moved = displacement(c.block_b, c.point_b) - displacement(c.block_a, c.point_a);
-    memories.values[i].elastic_slip_A =
+    memories.stored()[i].elastic_slip_A =
         rest.poses[c.block_a].q_WB.conjugate() * (moved - moved.dot(c.normal) * c.normal);
   }
   return memories;

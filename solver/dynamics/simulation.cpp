@@ -101,7 +101,7 @@ StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptio
   for (size_t k = 0; k < part.contact_rows.size(); ++k) {
     violations[part.contact_rows[k]] = report.violations[k];
     reduced_->forces.contacts[part.contact_rows[k]] = report.forces.contacts[k];
-    memories_.values[part.contact_rows[k]] = part.memories.values[k];
+    memories_.stored()[part.contact_rows[k]] = part.memories.of(k);
   }
   report.forces = reduced_->forces;
   report.violations = std::move(violations);
@@ -186,14 +186,14 @@ void Simulation::start_from(const LoadedState& loaded) {
   // That opening becomes the zero of its gap.
   std::vector<double> gaps;
   for (size_t i = 0; i < contacts.points.size(); ++i) {
-    const bool carries_load = memories_.values[i].impulse[0] > 0.0;
-    gaps.push_back(carries_load ? memories_.values[i].elastic_gap : contacts.points[i].gap);
+    const bool carries_load = memories_.of(i).impulse[0] > 0.0;
+    gaps.push_back(carries_load ? memories_.of(i).elastic_gap : contacts.points[i].gap);
   }
   detector_.set_gaps(gaps);
   heat_contacts(state_.poses);
   // The same forces act during the first step.
   for (size_t i = 0; i < contacts.points.size(); ++i) {
-    ContactMemory& memory = memories_.values[i];
+    ContactMemory& memory = memories_.stored()[i];
     const Contact& contact = contacts.points[i];
     continue_from_rest(contact_frame(contact.normal) * (memory.impulse / loaded.h),
                        state_.poses[contact.block_a], &memory);

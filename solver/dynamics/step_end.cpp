@@ -59,12 +59,13 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
                      ContactMemories* memories) {
   const ContactProblem& problem = step.problem;
   CUPOLA_ASSERT(solution.gamma.size() == 3 * problem.num_contacts());
-  CUPOLA_ASSERT(static_cast<int>(memories->values.size()) == step.num_contacts);
+  CUPOLA_ASSERT(static_cast<int>(memories->ids.size()) == step.num_contacts);
   const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
   const double h = options.reach();
+  std::vector<ContactMemory>& values = memories->stored();
   for (int i = 0; i < step.num_contacts; ++i) {
     const Contact& contact = contacts.points[i];
-    ContactMemory& memory = memories->values[i];
+    ContactMemory& memory = values[i];
     const double rest = known_motion(step, i, state.v, options).rest[0];
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
     const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
@@ -133,12 +134,12 @@ Vec3 in_present_frame(const ContactMemory& memory, const Contact& contact, const
 
 ContactSolution warm_start(const StepProblem& step, const State& state, const ContactSet& contacts,
                            const ContactMemories& memories) {
-  CUPOLA_ASSERT(static_cast<int>(memories.values.size()) == step.num_contacts);
+  CUPOLA_ASSERT(static_cast<int>(memories.ids.size()) == step.num_contacts);
   ContactSolution guess;
   guess.v = state.v;
   guess.gamma = VecX::Zero(step.problem.b.size());
   for (int i = 0; i < step.num_contacts; ++i)
-    guess.gamma.segment<3>(3 * i) = in_present_frame(memories.values[i], contacts.points[i], state);
+    guess.gamma.segment<3>(3 * i) = in_present_frame(memories.of(i), contacts.points[i], state);
   for (size_t k = 0; k < memories.ties.size(); ++k)
     guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.ties[k].impulse;
   return guess;

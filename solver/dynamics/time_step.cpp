@@ -84,7 +84,7 @@ void set_past(const Model& model, const State& state, const ContactSet& contacts
   step->past_impulse = VecX::Zero(step->problem.b.size());
   VecX filtered = step->past_impulse;
   for (int i = 0; i < step->num_contacts; ++i) {
-    const ContactMemory& memory = memories.values[i];
+    const ContactMemory& memory = memories.of(i);
     if (!has_past(memory, options)) continue;
     const Contact& contact = contacts.points[i];
     const Mat3 R_CA =
@@ -134,7 +134,7 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
   ContactProblem* problem = &step->problem;
   for (int i = 0; i < step->num_contacts; ++i) {
     const Contact& contact = contacts.points[i];
-    const ContactMemory& memory = memories.values[i];
+    const ContactMemory& memory = memories.of(i);
     const Mat3 R_WC = contact_frame(contact.normal);
 
     const JointLaw law = joint_law(model, contacts, contact, end);
@@ -238,7 +238,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
                                const ContactMemories& memories, const StepOptions& options) {
   CUPOLA_ASSERT(options.h > 0.0);
   CUPOLA_ASSERT(state.v.size() == 6 * model.num_free());
-  CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
+  CUPOLA_ASSERT(memories.ids.size() == contacts.points.size());
   StepProblem step;
   step.num_contacts = static_cast<int>(contacts.points.size());
   step.problem.h = options.h;

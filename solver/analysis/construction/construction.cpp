@@ -138,7 +138,7 @@ void Construction::accept(const StaticSolution& solution) {
   const VecX u = relative_velocity(solution.step.problem, solution.step_solution.v);
   for (size_t k = 0; k < problem_.rows.size(); ++k) {
     BuiltContact& joint = state_.joints[problem_.rows[k]];
-    joint.memory = memories.values[k];
+    joint.memory = memories.of(k);
     joint.memory.impulse /= solution.h;
     joint.gap += solution.h * u[3 * static_cast<Eigen::Index>(k)];
   }

@@ -128,7 +128,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
                  const ContactMemories& memories, const std::vector<Vec3>& displacement) {
   CUPOLA_ASSERT(forces.contacts.size() == contacts.points.size());
   CUPOLA_ASSERT(violations.size() == contacts.points.size());
-  CUPOLA_ASSERT(memories.values.size() == contacts.points.size());
+  CUPOLA_ASSERT(memories.ids.size() == contacts.points.size());
   CUPOLA_ASSERT(displacement.size() == state.poses.size());
   Frame frame;
   frame.time = state.time;
@@ -143,7 +143,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     const double normal_force = contact.normal.dot(force);
     const double tangential_force = (force - normal_force * contact.normal).norm();
     const JointLaw law = joint_law(model, contacts, contact, state.time);
-    const double cohesion = (1.0 - memories.values[i].joint.step_damage) * law.strength.cohesion;
+    const double cohesion = (1.0 - memories.of(i).joint.step_damage) * law.strength.cohesion;
     const double limit = cohesion + law.mu * normal_force;
     table.block_a.push_back(contact.block_a);
     table.block_b.push_back(contact.block_b);
@@ -156,8 +156,8 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     table.normal_force.push_back(normal_force);
     table.friction_use.push_back(limit > 0.0 ? tangential_force / limit : 0.0);
     table.area.push_back(contact.area);
-    table.slip.push_back(memories.values[i].plastic_slip);
-    if (model.joints.has_strength()) add_strength(law, memories.values[i], contact.gap, normal_force, &table);
+    table.slip.push_back(memories.of(i).plastic_slip);
+    if (model.joints.has_strength()) add_strength(law, memories.of(i), contact.gap, normal_force, &table);
   }
 
   BlockTable& blocks = frame.blocks;

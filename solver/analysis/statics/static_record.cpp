@@ -90,7 +90,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   for (size_t i = 0; i < frame.contacts.gap.size(); ++i) {
     frame.contacts.gap[i] += solution.h * u[3 * static_cast<Eigen::Index>(i)];
     if (model.joints.has_strength())
-      frame.contacts.crack_opening[i] = crack_opening(frame.contacts.gap[i], loaded.memories.values[i]);
+      frame.contacts.crack_opening[i] = crack_opening(frame.contacts.gap[i], loaded.memories.of(i));
   }
   return frame;
 }

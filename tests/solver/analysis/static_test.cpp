@@ -114,6 +114,22 @@ struct RandomWall {
   }
 };
 
+TEST(ContactMemories, TakeNoRoomBeforeTheFirstLoad) {
+  const Scene scene(make_case(0.4, 1e-8, 0.01), testing::box_on_floor({2, 2, 1}));
+  ASSERT_FALSE(scene.contacts.points.empty());
+  EXPECT_TRUE(scene.memories.values.empty());
+  EXPECT_EQ(scene.memories.of(0).impulse, Vec3::Zero());
+  StaticOptions options;
+  options.tolerance = 1e-8;
+  const StaticSolution solution = scene.solve(options.tolerance);
+  const LoadedState loaded =
+      loaded_state(scene.model, scene.rest, scene.contacts, scene.memories, solution, options);
+  ASSERT_EQ(loaded.memories.values.size(), scene.contacts.points.size());
+  EXPECT_GT(loaded.memories.of(0).impulse[0], 0.0);
+  const ContactMemories same = match_memories(loaded.memories, scene.contacts.points);
+  EXPECT_EQ(same.of(0).impulse, loaded.memories.of(0).impulse);
+}
+
 // A block on four springs: by equilibrium each of four equal springs at (+-1, +-1) carries
 // W (1/4 + ex x_i / 4 + ey y_i / 4) for a load at (ex, ey). Here the load is central.
 TEST(StaticSolve, FindsTheReactionsOfABlockOnFourSpringsAtEveryTolerance) {
