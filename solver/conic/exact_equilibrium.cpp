@@ -89,14 +89,14 @@ VecX imbalance_of(const ContactProblem& p, const VecX& load, const VecX& gamma) 
 
 /// An upper bound of sqrt(r . K^-1 r) of the whitened imbalance, no tighter than `enough` where that is
 /// above.
-double decrement(const ContactProblem& p, const ContactGraph& graph, const std::vector<Mat3>& S,
-                 const VecX& r, double enough, BlockCholesky* factor) {
+double decrement(const ContactProblem& p, const Whitening& white, const ContactGraph& graph,
+                 const std::vector<Mat3>& S, const VecX& r, double enough, BlockCholesky* factor) {
   constexpr int kMaxIterations = 60;
   constexpr double kReduction = 1e-3;  // of the part of lambda that is left
   constexpr double kRounding = 1e-14;  // shift of the factor, of the largest diagonal entry
   constexpr double kRest = 10.0;       // the rest is estimated with the factor, not bounded
-  BlockMatrix K = assemble_hessian(
-      p, graph, S);  // has the identity, which plane problems keep in the rows without unknowns
+  // Has the identity, which plane problems keep in the rows without unknowns.
+  BlockMatrix K = assemble_whitened_hessian(p, white, graph, S);
   const std::span<const int> unknowns = unknowns_of_block(graph.pattern);
   double largest = 0.0;
   for (const Mat6& block : K.diagonal)
@@ -105,10 +105,10 @@ double decrement(const ContactProblem& p, const ContactGraph& graph, const std::
     for (const int row : unknowns) block(row, row) += kRounding * largest - 1.0;
   if (!factor->factorize(graph.pattern, K)) return kInfinite;
   const auto times_K = [&](const VecX& w) {
-    VecX change = relative_velocity(p, w);
+    VecX change = relative_velocity(p, white.to_v(w));
     for (int i = 0; i < p.num_contacts(); ++i)
       change.segment<3>(3 * i) = (S[i] * change.segment<3>(3 * i)).eval();
-    return generalized_impulse(p, change);
+    return white.whiten_impulse(generalized_impulse(p, change));
   };
   VecX rest = r, z = factor->solve(rest), direction = z;
   double rz = rest.dot(z), squared = 0.0;
@@ -131,9 +131,8 @@ double decrement(const ContactProblem& p, const ContactGraph& graph, const std::
 
 }  // namespace
 
-double equilibrium_distance(const ContactProblem& problem, const WhitenedProblem& white,
-                            const ContactGraph& graph, const VecX& load, const VecX& gamma,
-                            BlockCholesky* factor) {
+double equilibrium_distance(const ContactProblem& problem, const Whitening& white, const ContactGraph& graph,
+                            const VecX& load, const VecX& gamma, BlockCholesky* factor) {
   CUPOLA_ASSERT(load.size() == 6 * problem.num_blocks() && gamma.size() == 3 * problem.num_contacts());
   constexpr double kShare = 1e-6;  // of the shear of a joint that slides
   constexpr double kLarge =
@@ -144,21 +143,20 @@ double equilibrium_distance(const ContactProblem& problem, const WhitenedProblem
   double largest = 0.0;
   for (int i = 0; i < problem.num_contacts(); ++i)
     for (const auto& [block, D] :
-         {std::pair{problem.block_a[i], &white.problem.D_a[i]}, {problem.block_b[i], &white.problem.D_b[i]}})
-      if (block != ContactProblem::kFixed) largest = std::max(largest, point.S[i].trace() * D->squaredNorm());
+         {std::pair{problem.block_a[i], &problem.D_a[i]}, {problem.block_b[i], &problem.D_b[i]}})
+      if (block != ContactProblem::kFixed)
+        largest = std::max(largest, point.S[i].trace() * (white.L_inverse[block] * *D).squaredNorm());
   if (!(largest > 0.0)) return kInfinite;
   const double scale = kLarge / largest;
   for (Mat3& S : point.S) S *= scale;
-  VecX r = imbalance_of(problem, load, point.gamma);
-  for (int k = 0; k < problem.num_blocks(); ++k)
-    r.segment<6>(6 * k) = (white.L_inverse[k] * r.segment<6>(6 * k)).eval();
+  const VecX r = white.whiten_impulse(imbalance_of(problem, load, point.gamma));
   return std::sqrt(scale) *
-         decrement(white.problem, graph, point.S, r, std::sqrt(1.0 / scale) * kProvenDistance, factor);
+         decrement(problem, white, graph, point.S, r, std::sqrt(1.0 / scale) * kProvenDistance, factor);
 }
 
 bool proves_equilibrium(const ContactProblem& problem, const VecX& load, const VecX& gamma) {
   BlockCholesky factor;
-  return equilibrium_distance(problem, whiten(problem), contact_graph(problem), load, gamma, &factor) <=
+  return equilibrium_distance(problem, Whitening(problem.M), contact_graph(problem), load, gamma, &factor) <=
          kProvenDistance;
 }
 

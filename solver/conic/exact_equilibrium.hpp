@@ -22,9 +22,8 @@ namespace cupola {
 ///
 /// `load` and `gamma`: impulses or forces, in the unit of the strength of `problem` (6 nb; 3 nc). `white` and
 /// `graph` are those of `problem`; `factor` keeps its structure if it has that of `graph`.
-double equilibrium_distance(const ContactProblem& problem, const WhitenedProblem& white,
-                            const ContactGraph& graph, const VecX& load, const VecX& gamma,
-                            BlockCholesky* factor);
+double equilibrium_distance(const ContactProblem& problem, const Whitening& white, const ContactGraph& graph,
+                            const VecX& load, const VecX& gamma, BlockCholesky* factor);
 
 /// The distance up to which forces next to gamma count as proven: below 1, for the rounding of lambda.
 constexpr double kProvenDistance = 0.5;

@@ -9,10 +9,12 @@
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/duality_gap.hpp"
 #include "solver/contact/problem/residuals.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
 
+constexpr double kOperationsPerContact = 100.0;
 constexpr double kOnBoundary = 1e-9;  // distance from the cone's boundary, relative, that counts as sliding
 
 /// True if the contact carries a normal force, or shear by cohesion.
@@ -86,7 +88,7 @@ double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x)
 }  // namespace
 
 ForceProjection::ForceProjection(const ContactProblem& problem, VecX impulse)
-    : p_(problem), impulse_(std::move(impulse)), white_(whiten(problem)), graph_(contact_graph(problem)) {}
+    : p_(problem), impulse_(std::move(impulse)), white_(problem.M), graph_(contact_graph(problem)) {}
 
 bool ForceProjection::slides(const ContactSolution& x) const {
   for (int i = 0; i < p_.num_contacts(); ++i)
@@ -94,14 +96,20 @@ bool ForceProjection::slides(const ContactSolution& x) const {
   return false;
 }
 
+std::vector<Mat3> ForceProjection::stiffnesses(const ContactSolution& x) const {
+  const VecX y = relative_velocity(p_, x.v) + p_.b;
+  const int nc = p_.num_contacts();
+  std::vector<Mat3> G(nc);
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) G[i] = contact_stiffness(contact_law(p_, i), y.segment<3>(3 * i));
+  });
+  return G;
+}
+
 bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
   constexpr double kSlowest = 1e-3;    // 1/m, times gravity: squared growth rate that is not reported
   constexpr double kRounding = 1e-12;  // of the largest diagonal entry
-  const VecX y = relative_velocity(p_, x.v) + p_.b;
-  std::vector<Mat3> G(p_.num_contacts());
-  for (int i = 0; i < p_.num_contacts(); ++i)
-    G[i] = contact_stiffness(contact_law(p_, i), y.segment<3>(3 * i));
-  BlockMatrix H = assemble_hessian(white_.problem, graph_, G);
+  BlockMatrix H = assemble_whitened_hessian(p_, white_, graph_, stiffnesses(x));
   double largest = 0.0;
   for (const Mat6& block : H.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
   const double shift = std::max(kSlowest * gravity * p_.h * p_.h, kRounding * largest);
@@ -119,28 +127,35 @@ bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
   return preconditioner_.factorize(graph_.pattern, H);
 }
 
-/// Per contact the stiffness of the changes that its impulse may undergo: all where it sticks, in the tangent
-/// plane of the admissible impulses where it slides or yields, none where it is open.
-std::vector<Mat3> ForceProjection::tangents(const ContactSolution& x) const {
-  std::vector<Mat3> S(p_.num_contacts(), Mat3::Zero());
-  for (int i = 0; i < p_.num_contacts(); ++i) {
-    const ContactLaw law = contact_law(p_, i);
-    const Vec3 g = x.gamma.segment<3>(3 * i);
-    if (!is_loaded(law, g)) continue;
-    const bool yields = is_yielding(law, g);
-    if (!law.carries_shear()) {
-      if (!yields) S[i](0, 0) = 1.0 / law.e_n;
-    } else if (is_sliding(law, g)) {
-      const Eigen::Vector2d t = g.tail<2>().normalized();
-      const Vec3 ray(1.0, law.mu * t[0], law.mu * t[1]), turn(0.0, -t[1], t[0]);
-      const double slip = (relative_velocity(p_, i, x.v) + p_.b.segment<3>(3 * i)).tail<2>().norm();
-      const double limit = law.shear_limit(g[0]);
-      if (limit > 0.0) S[i] = limit / std::max(slip, law.e_t * limit) * turn * turn.transpose();
-      if (!yields) S[i] += ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t);
-    } else {
-      S[i].diagonal() << (yields ? 0.0 : 1.0 / law.e_n), 1.0 / law.e_t, 1.0 / law.e_t;
-    }
+/// The stiffness of the changes that the impulse of a contact may undergo: all where it sticks, in the
+/// tangent plane of the admissible impulses where it slides or yields, none where it is open.
+Mat3 ForceProjection::tangent(const ContactSolution& x, int i) const {
+  const ContactLaw law = contact_law(p_, i);
+  const Vec3 g = x.gamma.segment<3>(3 * i);
+  Mat3 S = Mat3::Zero();
+  if (!is_loaded(law, g)) return S;
+  const bool yields = is_yielding(law, g);
+  if (!law.carries_shear()) {
+    if (!yields) S(0, 0) = 1.0 / law.e_n;
+  } else if (is_sliding(law, g)) {
+    const Eigen::Vector2d t = g.tail<2>().normalized();
+    const Vec3 ray(1.0, law.mu * t[0], law.mu * t[1]), turn(0.0, -t[1], t[0]);
+    const double slip = (relative_velocity(p_, i, x.v) + p_.b.segment<3>(3 * i)).tail<2>().norm();
+    const double limit = law.shear_limit(g[0]);
+    if (limit > 0.0) S = limit / std::max(slip, law.e_t * limit) * turn * turn.transpose();
+    if (!yields) S += ray * ray.transpose() / (law.e_n + law.mu * law.mu * law.e_t);
+  } else {
+    S.diagonal() << (yields ? 0.0 : 1.0 / law.e_n), 1.0 / law.e_t, 1.0 / law.e_t;
   }
+  return S;
+}
+
+std::vector<Mat3> ForceProjection::tangents(const ContactSolution& x) const {
+  const int nc = p_.num_contacts();
+  std::vector<Mat3> S(nc);
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) S[i] = tangent(x, i);
+  });
   return S;
 }
 
@@ -167,24 +182,21 @@ VecX ForceProjection::imbalance(const VecX& gamma) const {
 std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat3>& S, const VecX& imbalance,
                                                            double reduction) {
   constexpr int kMaxIterations = 200;
-  const ContactProblem& white = white_.problem;
   const auto change = [&](const VecX& w) {
-    VecX gamma = relative_velocity(white, w);
-    for (int i = 0; i < white.num_contacts(); ++i)
+    VecX gamma = relative_velocity(p_, white_.to_v(w));
+    for (int i = 0; i < p_.num_contacts(); ++i)
       gamma.segment<3>(3 * i) = (S[i] * gamma.segment<3>(3 * i)).eval();
     return gamma;
   };
-  VecX r(imbalance.size());
-  for (int k = 0; k < white.num_blocks(); ++k)
-    r.segment<6>(6 * k) = white_.L_inverse[k] * imbalance.segment<6>(6 * k);
-  VecX gamma = VecX::Zero(white.b.size()), w = VecX::Zero(r.size());
+  VecX r = white_.whiten_impulse(imbalance);
+  VecX gamma = VecX::Zero(p_.b.size()), w = VecX::Zero(r.size());
   const double first = r.norm();
   if (first == 0.0) return ContactSolution{w, gamma};
   VecX z = preconditioner_.solve(r), direction = z;
   double rz = r.dot(z);
   for (int k = 0; k < kMaxIterations; ++k) {
     const VecX dg = change(direction);
-    const VecX product = generalized_impulse(white, dg);
+    const VecX product = white_.whiten_impulse(generalized_impulse(p_, dg));
     const double curvature = direction.dot(product);
     if (!(curvature > 0.0)) return std::nullopt;
     const double alpha = rz / curvature;
@@ -217,7 +229,7 @@ std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolutio
   make_admissible();
   if (!preconditioner_.has_factor() &&
       !preconditioner_.factorize(graph_.pattern,
-                                 assemble_hessian(white_.problem, graph_, tangents(balanced))))
+                                 assemble_whitened_hessian(p_, white_, graph_, tangents(balanced))))
     return std::nullopt;
   double remaining = 0.0;
   for (int round = 0; round < kRounds; ++round) {

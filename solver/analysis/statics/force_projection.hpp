@@ -35,6 +35,8 @@ class ForceProjection {
   std::optional<ForceErrorBound> force_error(const ContactSolution& x);
 
  private:
+  std::vector<Mat3> stiffnesses(const ContactSolution& x) const;
+  Mat3 tangent(const ContactSolution& x, int contact) const;
   std::vector<Mat3> tangents(const ContactSolution& x) const;
   VecX imbalance(const VecX& gamma) const;
   std::optional<ContactSolution> correction(const std::vector<Mat3>& S, const VecX& imbalance,
@@ -42,7 +44,7 @@ class ForceProjection {
 
   const ContactProblem& p_;
   const VecX impulse_;
-  const WhitenedProblem white_;
+  const Whitening white_;
   const ContactGraph graph_;
   BlockCholesky preconditioner_;
 };

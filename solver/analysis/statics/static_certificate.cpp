@@ -10,6 +10,7 @@
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/dynamics/time_step.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -90,6 +91,7 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   const ContactProblem sector = symmetry ? reduce(problem, *symmetry) : ContactProblem{};
   const ContactProblem& p = symmetry ? sector : problem;
   const ContactSolution x = symmetry ? restrict(solution, *symmetry) : solution;
+  release_freed_memory();  // of the solve: the factor of a large model takes most of the peak
   ForceProjection projection(p, p.h * (symmetry ? restrict_loads(loads, *symmetry) : loads));
 
   const bool has_ties = problem.num_contacts() > static_cast<int>(contacts.points.size());

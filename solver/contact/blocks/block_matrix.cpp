@@ -87,6 +87,25 @@ BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& 
   return H;
 }
 
+BlockMatrix assemble_whitened_hessian(const ContactProblem& problem, const Whitening& white,
+                                      const ContactGraph& graph, const std::vector<Mat3>& G) {
+  constexpr double kOperationsPerColumn = 4000.0;
+  BlockMatrix H = assemble_hessian(problem, graph, G);
+  const std::vector<Mat6>& to_w = white.L_inverse;
+  const int nb = problem.num_blocks();
+  share_range(kOperationsPerColumn * nb, nb, [&](int first, int last) {
+    for (int column = first; column < last; ++column) {
+      const auto whiten = [&](int row, Mat6* block) {
+        *block = (to_w[row] * *block * to_w[column].transpose()).eval();
+      };
+      whiten(column, &H.diagonal[column]);
+      for (int p = graph.pattern.column_start[column]; p < graph.pattern.column_start[column + 1]; ++p)
+        whiten(graph.pattern.row[p], &H.lower[p]);
+    }
+  });
+  return H;
+}
+
 VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x) {
   CUPOLA_ASSERT(x.size() == 6 * pattern.num_blocks());
   VecX result(x.size());

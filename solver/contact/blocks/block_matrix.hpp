@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/contact/problem/contact_problem.hpp"
+#include "solver/contact/problem/whitening.hpp"
 
 namespace cupola {
 
@@ -36,6 +36,10 @@ ContactGraph contact_graph(const ContactProblem& problem);
 /// M + sum_i D_i G_i D_i^T, summed in the order of the contacts.
 BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
                              const std::vector<Mat3>& G);
+
+/// The same in whitened unknowns, I + sum_i J_i G_i J_i^T, without J, which takes as much memory as D.
+BlockMatrix assemble_whitened_hessian(const ContactProblem& problem, const Whitening& white,
+                                      const ContactGraph& graph, const std::vector<Mat3>& G);
 
 /// Matrix times vector (6 nb).
 VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x);

@@ -7,7 +7,18 @@
 
 namespace cupola {
 
-VecX WhitenedProblem::to_w(const VecX& v) const {
+Whitening::Whitening(const std::vector<Mat6>& M) {
+  L.reserve(M.size());
+  L_inverse.reserve(M.size());
+  for (const Mat6& block : M) {
+    const Eigen::LLT<Mat6> factor(block);
+    CUPOLA_ASSERT(factor.info() == Eigen::Success);
+    L.push_back(factor.matrixL());
+    L_inverse.push_back(L.back().triangularView<Eigen::Lower>().solve(Mat6::Identity()));
+  }
+}
+
+VecX Whitening::to_w(const VecX& v) const {
   CUPOLA_ASSERT(v.size() == 6 * std::ssize(L));
   VecX w(v.size());
   for (int k = 0; k < static_cast<int>(L.size()); ++k) {
@@ -16,7 +27,7 @@ VecX WhitenedProblem::to_w(const VecX& v) const {
   return w;
 }
 
-VecX WhitenedProblem::to_v(const VecX& w) const {
+VecX Whitening::to_v(const VecX& w) const {
   CUPOLA_ASSERT(w.size() == 6 * std::ssize(L));
   VecX v(w.size());
   for (int k = 0; k < static_cast<int>(L.size()); ++k) {
@@ -25,17 +36,17 @@ VecX WhitenedProblem::to_v(const VecX& w) const {
   return v;
 }
 
+VecX Whitening::whiten_impulse(const VecX& p) const {
+  CUPOLA_ASSERT(p.size() == 6 * std::ssize(L));
+  VecX result(p.size());
+  for (int k = 0; k < static_cast<int>(L.size()); ++k)
+    result.segment<6>(6 * k).noalias() = L_inverse[k] * p.segment<6>(6 * k);
+  return result;
+}
+
 WhitenedProblem whiten(const ContactProblem& problem) {
   const int nb = problem.num_blocks(), nc = problem.num_contacts();
-  WhitenedProblem white;
-  white.L.reserve(nb);
-  white.L_inverse.reserve(nb);
-  for (const Mat6& M : problem.M) {
-    const Eigen::LLT<Mat6> factor(M);
-    CUPOLA_ASSERT(factor.info() == Eigen::Success);
-    white.L.push_back(factor.matrixL());
-    white.L_inverse.push_back(white.L.back().triangularView<Eigen::Lower>().solve(Mat6::Identity()));
-  }
+  WhitenedProblem white{Whitening(problem.M), {}};
   ContactProblem& p = white.problem;
   p.M.assign(nb, Mat6::Identity());
   p.block_a = problem.block_a;

@@ -6,16 +6,19 @@
 
 #include <gtest/gtest.h>
 
+#include "solver/contact/problem/whitening.hpp"
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
 namespace cupola::block_rows_test {
 namespace {
 
-Eigen::MatrixXd dense(const BlockRows& A) {
+template <class Scalar>
+Eigen::MatrixXd dense(const BlockRowsOf<Scalar>& A) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(6 * A.num_rows(), 6 * A.num_columns);
   for (int i = 0; i < A.num_rows(); ++i) {
-    for (int k = A.start[i]; k < A.start[i + 1]; ++k) result.block<6, 6>(6 * i, 6 * A.column[k]) = A.value[k];
+    for (int k = A.start[i]; k < A.start[i + 1]; ++k)
+      result.template block<6, 6>(6 * i, 6 * A.column[k]) = A.value[k].template cast<double>();
   }
   return result;
 }
@@ -45,6 +48,23 @@ TEST(BlockRows, MultiplyLikeDenseMatrices) {
   EXPECT_LT((multiply(A, x) - dense(A) * x).norm(), kRounding * x.norm());
   EXPECT_LT((dense(multiply(A, B)) - dense(A) * dense(B)).cwiseAbs().maxCoeff(), kRounding);
   EXPECT_EQ(dense(transpose(A)), dense(A).transpose());
+  const SingleBlockRows S = in_single_precision(B);
+  EXPECT_LT((dense(multiply(A, S)) - dense(A) * dense(S)).cwiseAbs().maxCoeff(), kRounding);
+  EXPECT_EQ(dense(transpose(S)), dense(S).transpose());
+}
+
+// Scaling by blocks commutes with the sum over contacts up to the rounding of their terms.
+TEST(BlockMatrix, IsWhitenedWithOrWithoutACopyOfTheContacts) {
+  constexpr double kShare = 1e-13;
+  const ContactProblem p = scenes::dome({.rings = 5, .blocks_per_ring = 8}, 1.0, {});
+  const ContactGraph graph = contact_graph(p);
+  const std::vector<Mat3> G(p.num_contacts(), 1e3 * Mat3::Identity());
+  const WhitenedProblem white = whiten(p);
+  const Eigen::MatrixXd expected =
+      dense(both_triangles(graph.pattern, assemble_hessian(white.problem, graph, G)));
+  const Eigen::MatrixXd H =
+      dense(both_triangles(graph.pattern, assemble_whitened_hessian(p, Whitening(p.M), graph, G)));
+  EXPECT_LT((H - expected).cwiseAbs().maxCoeff(), kShare * expected.cwiseAbs().maxCoeff());
 }
 
 TEST(BlockRows, AreSortedInAProduct) {
