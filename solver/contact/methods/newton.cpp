@@ -173,7 +173,8 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
   // From this iteration on block descent follows also the directions that come from factors. Of steps from
   // rest with much sliding it saves half the time and more. Most solves end before.
   constexpr int kSlow = 10;
-  constexpr double kNegligible = 0.1;  // gradient of a block that BlockDescent skips, of the tolerance
+  // Gradient of a block that BlockDescent skips: of the tolerance, and of the largest
+  constexpr double kNegligible = 0.1, kSmallShare = 0.01;
   double last_residual = residual(point);
   BestIterate best(point, last_residual);
   Stagnation stagnation(last_residual);
@@ -212,7 +213,8 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     const bool slow = !motions.empty() || summary.iterations >= kSlow;
     if (slow && residual(next) > options.tolerance) {
       if (!descent) descent.emplace(p);
-      next = descent->descend(next, kNegligible * options.tolerance / residual_scale);
+      next = descent->descend(next, std::max(kNegligible * options.tolerance / residual_scale,
+                                             kSmallShare * next.largest_block_gradient));
     }
 
     // 4. Progress

@@ -57,5 +57,23 @@ TEST(BlockDescent, SkipsBlocksInEquilibrium) {
   EXPECT_EQ(same.w, exact.w);
 }
 
+// A block out of equilibrium moves its neighbours, which were in equilibrium before.
+TEST(BlockDescent, FollowsBlocksBesideThoseThatMove) {
+  const ContactProblem problem = scenes::arch(20, 0.15, 1.2, 0.0, 0.01, kJoint);
+  const WhitenedProblem white = whiten(problem);
+  const PrimalPoint exact = solution_of(problem, white);
+  constexpr int kMoved = 10;
+  VecX w = exact.w;
+  w[6 * kMoved] += 1e-3 * white.problem.v_star.norm();
+  const PrimalPoint start = primal_point(white.problem, w);
+  const double small = 1e-6 * start.largest_block_gradient;
+  ASSERT_GT(small, exact.largest_block_gradient);
+  const PrimalPoint next = BlockDescent(white.problem).descend(start, small);
+  const auto moved = [&](int block) { return next.w.segment<6>(6 * block) != start.w.segment<6>(6 * block); };
+  for (const int block : {kMoved - 2, kMoved - 1, kMoved, kMoved + 1, kMoved + 2})
+    EXPECT_TRUE(moved(block)) << block;
+  EXPECT_LT(next.cost, start.cost);
+}
+
 }  // namespace
 }  // namespace cupola::block_descent_test
