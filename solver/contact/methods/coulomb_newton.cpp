@@ -14,66 +14,10 @@
 #include "solver/contact/methods/coulomb_subproblem.hpp"
 #include "solver/contact/problem/residuals.hpp"
 #include "solver/contact/problem/whitening.hpp"
-#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
 namespace {
-
-double largest_block(const VecX& F) {
-  double largest = 0.0;
-  for (Eigen::Index k = 0; k < F.size(); k += 6) {
-    const double norm = F.segment<6>(k).norm();
-    if (!(norm <= largest)) largest = norm;  // keeps NaN
-  }
-  return largest;
-}
-
-/// How accurately a subproblem is solved.
-struct SubproblemAccuracy {
-  double tolerance;                ///< of each block of F
-  double share = 0.0;              ///< of the error that R causes; if larger, it replaces the tolerance
-  bool inexact_directions = true;  ///< GMRES with an earlier factor where that succeeds
-};
-
-/// Semismooth Newton from `point`, with a line search on |F|. True if no block of F exceeds the tolerance;
-/// otherwise point is the last iterate. Gives up where |F| has not halved in six iterations.
-bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& accuracy,
-                      const SolveOptions& options, CoulombDirection* direction, CoulombPoint* point,
-                      SolveSummary* summary) {
-  constexpr int kMaxIterations = 30, kPatience = 6;
-  constexpr double kShortest = 1.0 / 64.0, kDecrease = 1e-4;
-  const int max_iterations = options.max_iterations.value_or(kMaxIterations);
-  std::vector<double> norms;
-  const auto is_solved = [&] {
-    double tolerance = accuracy.tolerance;
-    if (accuracy.share > 0.0)
-      tolerance = std::max(tolerance, accuracy.share * sub.distance_to_centre(point->gamma));
-    return largest_block(point->F) <= tolerance;
-  };
-  for (int k = 0; k < max_iterations && !is_solved(); ++k) {
-    throw_if_interrupted();
-    const VecX& F = point->F;
-    norms.push_back(F.norm());
-    if (k >= kPatience && norms[k] > 0.5 * norms[k - kPatience]) return false;
-    ++summary->iterations;
-    std::optional<double> forcing;
-    if (accuracy.inexact_directions)
-      forcing = std::clamp(0.3 * accuracy.tolerance / largest_block(F), 1e-2, 0.1);
-    VecX d;
-    if (!direction->solve(sub.p, sub.graph, sub.stiffnesses(point->y), F, forcing, &d, summary)) return false;
-    CoulombPoint trial;
-    double t = 2.0;
-    do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
-      t *= 0.5;
-      trial = point_at(sub, point->w - t * d);
-      ++summary->line_search_evaluations;
-    } while (!(trial.F.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
-    if (!(trial.F.norm() < F.norm())) return false;
-    *point = std::move(trial);
-  }
-  return is_solved();
-}
 
 /// The solution with all contacts sticking, including those with a gap, if there is one. For rigid contacts
 /// by a Cholesky factor, which then preconditions the proximal points.
@@ -124,104 +68,151 @@ struct BestSolution {
   }
 };
 
+/// What the solver object keeps between solves.
+struct Kept {
+  BlockLu* lu;
+  double *share, *factor_share;
+};
+
+constexpr double kFirstShare = 1.0;  // of the Delassus blocks
+
+/// One solve; `solution`: the guess, if it has the size.
+class CoulombSolve {
+ public:
+  CoulombSolve(const ContactProblem& problem, const ContactSolverOptions& options, const Kept& kept,
+               ContactSolution* solution)
+      : problem_(problem), options_(options), kept_(kept), solution_(solution) {}
+
+  SolveSummary run() {
+    const double started = wall_seconds();
+    choose_start();
+    if (rigid_ || !solve_by_newton()) {
+      solve_by_proximal_points();
+      conclude();
+    }
+    summary_.time_seconds = wall_seconds() - started;
+    return summary_;
+  }
+
+ private:
+  void choose_start();
+  bool solve_by_newton();
+  void solve_by_proximal_points();
+  void conclude();
+
+  void set_share(double share) {
+    if (diagonal_.size() == 0) diagonal_ = delassus_traces(problem_) / 3.0;
+    sub_.R = share * diagonal_;
+  }
+
+  static constexpr double kMargin = 0.5;  // of the tolerance, so that residuals computed anew meet it too
+
+  const ContactProblem& problem_;
+  const ContactSolverOptions& options_;
+  const Kept kept_;
+  ContactSolution* const solution_;
+  SolveSummary summary_;
+  const WhitenedProblem white_ = whiten(problem_);
+  const ContactGraph graph_ = contact_graph(problem_);
+  CoulombSubproblem sub_{white_.problem,
+                         graph_,
+                         options_.law.dilatancy,
+                         root_mean_mass(problem_),
+                         VecX::Zero(problem_.num_contacts()),
+                         VecX::Zero(problem_.b.size())};
+  CoulombDirection direction_{kept_.lu};
+  BestSolution best_{problem_, white_, options_, solution_};
+  const bool rigid_ = first_rigid_contact(problem_).has_value();
+  const double scale_ = sub_.root_mass * options_.reference_speed;
+  const double tolerance_ = kMargin * options_.tolerance * scale_;  // of each block of F
+  bool sticks_ = false;
+  VecX w_ = white_.problem.v_star;
+  VecX diagonal_;  // of the Delassus blocks, 1/kg (nc)
+};
+
+void CoulombSolve::choose_start() {
+  if (solution_->v.size() == problem_.v_star.size()) {
+    w_ = white_.to_w(solution_->v);
+    return;
+  }
+  *kept_.factor_share = 0.0;
+  if (rigid_) set_share(*kept_.share);
+  std::optional<VecX> sticking = sticking_solution(sub_, rigid_, &direction_, &summary_);
+  if (!sticking) return;
+  // Rigid blocks that can slide out of a structure would jam: they start from free fall.
+  sticks_ = rigid_ && keeps_sticking(sub_, point_at(sub_, *sticking));
+  if (sticks_ || !rigid_) w_ = std::move(*sticking);
+}
+
+/// Plain Newton, of compliant contacts. False if it failed and the proximal points are to be tried.
+bool CoulombSolve::solve_by_newton() {
+  *kept_.factor_share = 0.0;
+  CoulombPoint next = point_at(sub_, w_);
+  const bool solved =
+      solve_subproblem(sub_, {.tolerance = tolerance_, .inexact_directions = options_.lag_factor}, options_,
+                       &direction_, &next, &summary_);
+  if (!solved && !options_.max_iterations) {
+    best_.include(next.w, next.gamma, &summary_);
+    return false;
+  }
+  const double reached = largest_block_norm(next.F) / scale_;
+  *solution_ = {white_.to_v(next.w), std::move(next.gamma)};
+  const bool finite = std::isfinite(reached) && solution_->v.allFinite() && solution_->gamma.allFinite();
+  set_ending(solved, finite, reached, options_, &summary_);
+  return true;
+}
+
+void CoulombSolve::solve_by_proximal_points() {
+  constexpr int kMaxOuterIterations = 200;
+  constexpr double kInnerShare = 0.03;  // Rockafellar (1976), proximal point algorithm, criterion B
+  constexpr double kLargestShare = 1e3, kSmallestShare = 1e-6;
+  if (solution_->gamma.size() == problem_.b.size()) sub_.centre = solution_->gamma;
+  SubproblemAccuracy accuracy{.tolerance = 0.2 * tolerance_, .share = sticks_ ? kInnerShare : 0.0};
+  double share = rigid_ ? *kept_.share : kFirstShare;
+  while (best_.error > 1.0 && summary_.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
+    ++summary_.outer_iterations;
+    set_share(share);
+    // R changes the matrix, which matters less where most contacts stick.
+    accuracy.inexact_directions = sticks_ || (options_.lag_factor && rigid_ && share == *kept_.factor_share);
+    *kept_.factor_share = sticks_ ? 0.0 : share;
+    CoulombPoint next = point_at(sub_, w_);
+    if (!solve_subproblem(sub_, accuracy, options_, &direction_, &next, &summary_)) {
+      // What was right for the last problem is not for this one.
+      share = summary_.outer_iterations == 1 && share < kFirstShare ? kFirstShare : 10.0 * share;
+      continue;
+    }
+    *kept_.share = share;
+    share = std::max(0.3 * share, kSmallestShare);
+    w_ = std::move(next.w);
+    sub_.centre = std::move(next.gamma);
+    best_.include(w_, sub_.centre, &summary_);
+  }
+  if (!(best_.error <= 1.0)) *kept_.share = kFirstShare;
+}
+
+/// The ending of the proximal points.
+void CoulombSolve::conclude() {
+  if (!std::isfinite(best_.error)) {
+    summary_.message = fmt::format("Newton found no usable point of the friction law in {}",
+                                   counted(summary_.iterations, "iteration"));
+    return;
+  }
+  summary_.ending = best_.error <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
+  summary_.measure = ErrorMeasure::all_residuals;
+  summary_.reached = largest_residual(best_.residuals);
+  summary_.message = fmt::format("{}, after {} for {}", residuals_text(best_.residuals, options_.tolerance),
+                                 counted(summary_.iterations, "Newton iteration"),
+                                 counted(summary_.outer_iterations, "proximal point"));
+}
+
 }  // namespace
 
 SolveSummary CoulombNewton::solve(const ContactProblem& problem, const ContactSolverOptions& options,
                                   ContactSolution* solution) {
-  constexpr double kShare = 0.5;  // of the tolerance, so that residuals computed anew meet it too
-  constexpr int kMaxOuterIterations = 200;
-  constexpr double kInnerShare = 0.03;  // Rockafellar (1976), proximal point algorithm, criterion B
-  constexpr double kFirstShare = 1.0, kLargestShare = 1e3, kSmallestShare = 1e-6;
-  const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
-  const WhitenedProblem white = whiten(problem);
-  const ContactGraph graph = contact_graph(problem);
-  CoulombSubproblem sub{white.problem,
-                        graph,
-                        options.law.dilatancy,
-                        root_mean_mass(problem),
-                        VecX::Zero(problem.num_contacts()),
-                        VecX::Zero(problem.b.size())};
-  CoulombDirection direction(&lu_);
-  VecX diagonal;
-  const auto set_share = [&](double share) {
-    if (diagonal.size() == 0) diagonal = delassus_traces(problem) / 3.0;
-    sub.R = share * diagonal;
-  };
-  const bool rigid = first_rigid_contact(problem).has_value();
-  double share = rigid ? share_ : kFirstShare;
-  const double scale = sub.root_mass * options.reference_speed;
-  const double tolerance = kShare * options.tolerance * scale;
-  BestSolution best{problem, white, options, solution};
-  VecX w = white.problem.v_star;
-  bool sticks = false;
-  if (solution->v.size() == problem.v_star.size()) {
-    w = white.to_w(solution->v);
-  } else {
-    factor_share_ = 0.0;
-    if (rigid) set_share(share);
-    if (std::optional<VecX> sticking = sticking_solution(sub, rigid, &direction, &summary)) {
-      // Rigid blocks that can slide out of a structure would jam: they start from free fall.
-      sticks = rigid && keeps_sticking(sub, point_at(sub, *sticking));
-      if (sticks || !rigid) w = std::move(*sticking);
-    }
-  }
-
-  // 1. Plain Newton
-  if (!rigid) {
-    factor_share_ = 0.0;
-    CoulombPoint next = point_at(sub, w);
-    const bool solved =
-        solve_subproblem(sub, {.tolerance = tolerance, .inexact_directions = options.lag_factor}, options,
-                         &direction, &next, &summary);
-    if (solved || options.max_iterations) {
-      const double reached = largest_block(next.F) / scale;
-      *solution = {white.to_v(next.w), std::move(next.gamma)};
-      const bool finite = std::isfinite(reached) && solution->v.allFinite() && solution->gamma.allFinite();
-      set_ending(solved, finite, reached, options, &summary);
-      summary.time_seconds = wall_seconds() - start;
-      return summary;
-    }
-    best.include(next.w, next.gamma, &summary);
-  }
-
-  // 2. Proximal points
-  if (solution->gamma.size() == problem.b.size()) sub.centre = solution->gamma;
-  SubproblemAccuracy accuracy{.tolerance = 0.2 * tolerance, .share = sticks ? kInnerShare : 0.0};
-  while (best.error > 1.0 && summary.outer_iterations < kMaxOuterIterations && share <= kLargestShare) {
-    ++summary.outer_iterations;
-    set_share(share);
-    // R changes the matrix, which matters less where most contacts stick.
-    accuracy.inexact_directions = sticks || (options.lag_factor && rigid && share == factor_share_);
-    factor_share_ = sticks ? 0.0 : share;
-    CoulombPoint next = point_at(sub, w);
-    if (!solve_subproblem(sub, accuracy, options, &direction, &next, &summary)) {
-      // What was right for the last problem is not for this one.
-      share = summary.outer_iterations == 1 && share < kFirstShare ? kFirstShare : 10.0 * share;
-      continue;
-    }
-    share_ = share;
-    share = std::max(0.3 * share, kSmallestShare);
-    w = std::move(next.w);
-    sub.centre = std::move(next.gamma);
-    best.include(w, sub.centre, &summary);
-  }
-  summary.time_seconds = wall_seconds() - start;
-  if (!(best.error <= 1.0)) share_ = kFirstShare;
-  if (!std::isfinite(best.error)) {
-    summary.message = fmt::format("Newton found no usable point of the friction law in {}",
-                                  counted(summary.iterations, "iteration"));
-    return summary;
-  }
-  summary.ending = best.error <= 1.0 ? SolveEnding::converged : SolveEnding::stalled;
-  summary.measure = ErrorMeasure::all_residuals;
-  summary.reached = largest_residual(best.residuals);
-  summary.message = fmt::format("{}, after {} for {}", residuals_text(best.residuals, options.tolerance),
-                                counted(summary.iterations, "Newton iteration"),
-                                counted(summary.outer_iterations, "proximal point"));
-  return summary;
+  return CoulombSolve(problem, options, {&lu_, &share_, &factor_share_}, solution).run();
 }
 
 }  // namespace cupola

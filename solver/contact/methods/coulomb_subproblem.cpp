@@ -1,7 +1,10 @@
 #include "solver/contact/methods/coulomb_subproblem.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
+
+#include "solver/runtime/interruption.hpp"
 
 namespace cupola {
 
@@ -60,6 +63,52 @@ bool keeps_sticking(const CoulombSubproblem& sub, const CoulombPoint& point) {
     if (!(point.F.segment<6>(k).norm() <= kShare * by_contacts + kRounding * free.norm())) return false;
   }
   return true;
+}
+
+double largest_block_norm(const VecX& F) {
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < F.size(); k += 6) {
+    const double norm = F.segment<6>(k).norm();
+    if (!(norm <= largest)) largest = norm;  // keeps NaN
+  }
+  return largest;
+}
+
+bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& accuracy,
+                      const SolveOptions& options, CoulombDirection* direction, CoulombPoint* point,
+                      SolveSummary* summary) {
+  constexpr int kMaxIterations = 30, kPatience = 6;
+  constexpr double kShortest = 1.0 / 64.0, kDecrease = 1e-4;
+  const int max_iterations = options.max_iterations.value_or(kMaxIterations);
+  std::vector<double> norms;
+  const auto is_solved = [&] {
+    double tolerance = accuracy.tolerance;
+    if (accuracy.share > 0.0)
+      tolerance = std::max(tolerance, accuracy.share * sub.distance_to_centre(point->gamma));
+    return largest_block_norm(point->F) <= tolerance;
+  };
+  for (int k = 0; k < max_iterations && !is_solved(); ++k) {
+    throw_if_interrupted();
+    const VecX& F = point->F;
+    norms.push_back(F.norm());
+    if (k >= kPatience && norms[k] > 0.5 * norms[k - kPatience]) return false;
+    ++summary->iterations;
+    std::optional<double> forcing;
+    if (accuracy.inexact_directions)
+      forcing = std::clamp(0.3 * accuracy.tolerance / largest_block_norm(F), 1e-2, 0.1);
+    VecX d;
+    if (!direction->solve(sub.p, sub.graph, sub.stiffnesses(point->y), F, forcing, &d, summary)) return false;
+    CoulombPoint trial;
+    double t = 2.0;
+    do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
+      t *= 0.5;
+      trial = point_at(sub, point->w - t * d);
+      ++summary->line_search_evaluations;
+    } while (!(trial.F.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
+    if (!(trial.F.norm() < F.norm())) return false;
+    *point = std::move(trial);
+  }
+  return is_solved();
 }
 
 }  // namespace cupola

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "solver/contact/blocks/block_matrix.hpp"
+#include "solver/contact/methods/coulomb_direction.hpp"
 #include "solver/contact/problem/cone.hpp"
+#include "solver/contact/problem/solve_options.hpp"
 
 namespace cupola {
 
@@ -47,5 +49,21 @@ StickingSystem sticking_system(const CoulombSubproblem& sub);
 /// each block: no contact opens or slides. It scales with the loads, so that structures without gaps reach it
 /// from rest without sliding.
 bool keeps_sticking(const CoulombSubproblem& sub, const CoulombPoint& point);
+
+/// Largest norm of the 6-vectors of F; NaN if one is.
+double largest_block_norm(const VecX& F);
+
+/// How accurately a subproblem is solved.
+struct SubproblemAccuracy {
+  double tolerance;                ///< of each block of F
+  double share = 0.0;              ///< of the error that R causes; if larger, it replaces the tolerance
+  bool inexact_directions = true;  ///< GMRES with an earlier factor where that succeeds
+};
+
+/// Semismooth Newton from `point`, with a line search on |F|. True if no block of F exceeds the tolerance;
+/// otherwise point is the last iterate. Gives up where |F| has not halved in six iterations.
+bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& accuracy,
+                      const SolveOptions& options, CoulombDirection* direction, CoulombPoint* point,
+                      SolveSummary* summary);
 
 }  // namespace cupola
