@@ -36,7 +36,7 @@ int num_threads() {
 void release_freed_memory() {
 #ifdef __GLIBC__
   // Little memory is not worth the page faults of its next use. The top of the main heap is reused by all.
-  constexpr std::size_t kLittle = 64U << 20U, kTop = 256U << 20U;  // bytes
+  constexpr std::size_t kLittle = 64U << 20U, kTop = 64U << 20U;  // bytes
   const struct mallinfo2 heap = mallinfo2();
   if (heap.fordblks - heap.keepcost > kLittle) malloc_trim(kTop);
 #endif
