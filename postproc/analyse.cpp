@@ -30,14 +30,17 @@
 namespace cupola {
 namespace {
 
-/// The evaluation of a frame; none if it cannot be read, which is recorded.
-std::optional<FrameEvaluation> frame_at(size_t index, const ResultsReader& results, Evaluation* e) {
-  if (static_cast<int>(index) == e->last_frame) return e->last;
+/// The evaluation of a frame, which lies in `e` or is read into `other`; null if it cannot be read, which is
+/// recorded.
+const FrameEvaluation* frame_at(size_t index, const ResultsReader& results, Evaluation* e,
+                                FrameEvaluation* other) {
+  if (static_cast<int>(index) == e->last_frame) return &e->last;
   try {
-    return evaluate_frame(*e, results.read_frame(static_cast<int>(index)));
+    *other = evaluate_frame(*e, results.read_frame(static_cast<int>(index)));
+    return other;
   } catch (const InputError& error) {
     leave_out(fmt::format("frame {}", index), error.what(), e);
-    return std::nullopt;
+    return nullptr;
   }
 }
 
@@ -49,8 +52,9 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
   std::vector<MovedBlocks> moments;
   const size_t count = std::min(moving.size(), kMost);
   for (size_t i = 1; i <= count; ++i) {
-    const std::optional<FrameEvaluation> frame = frame_at(moving[moving.size() * i / count - 1], results, e);
-    if (!frame) continue;
+    FrameEvaluation other;
+    const FrameEvaluation* frame = frame_at(moving[moving.size() * i / count - 1], results, e, &other);
+    if (frame == nullptr) continue;
     MovedBlocks moment{frame->frame.label, frame->frame.blocks, {}};
     if (is_stage(frame->frame.role)) moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
     moments.push_back(std::move(moment));
@@ -66,8 +70,9 @@ std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::s
   std::vector<PvdEntry> entries;
   std::vector<size_t> moving;
   for (size_t i = 0; i < e->times.size(); ++i) {
-    const std::optional<FrameEvaluation> frame = frame_at(i, results, e);
-    if (!frame) continue;
+    FrameEvaluation other;
+    const FrameEvaluation* frame = frame_at(i, results, e, &other);
+    if (frame == nullptr) continue;
     const std::string name = fmt::format("blocks_{:04}.vtu", i);
     Mesh mesh = blocks.at(*frame);
     for (MeshArray& array : about(*e, 0.0)) mesh.field_data.push_back(std::move(array));
@@ -118,7 +123,15 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
   return drawn;
 }
 
-void write_report(const AnalyseRequest& request, const std::vector<Table>& tables,
+/// Writes all tables, and returns what the report shows of them: those of joints and blocks may be large.
+std::string write_tables(std::vector<Table> first, const Evaluation& e, const std::string& folder) {
+  for (Table& table : result_tables(e)) first.push_back(std::move(table));
+  for (const Table& table : first)
+    write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
+  return tables_html(first, at_rest(e));
+}
+
+void write_report(const AnalyseRequest& request, const std::string& tables,
                   const std::optional<StageReport>& construction, const Drawn& drawn,
                   const std::vector<HistoryRow>& history, const std::string& run_yaml, const Evaluation& e) {
   const std::string& folder = request.output_folder;
@@ -198,17 +211,16 @@ ExitCode analyse(const AnalyseRequest& request) {
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));
   const WrittenFiles written(folder);
-  std::vector<Table> tables = result_tables(e);
+  std::vector<Table> own_tables;
   std::optional<Figure> own;
+  if (const auto path = readable_table(run.results, "path.csv", &e))
+    own = path_figure(own_tables.emplace_back(path_table(*path)));
   const std::optional<StageReport> construction = read_construction(run.results, &e);
   if (construction) {
-    tables.insert(tables.begin(), construction->table);
+    own_tables.push_back(construction->table);
     own = construction->figure;
   }
-  if (const auto path = readable_table(run.results, "path.csv", &e))
-    own = path_figure(tables.emplace(tables.begin(), path_table(*path))[0]);
-  for (const Table& table : tables)
-    write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
+  const std::string tables = write_tables(std::move(own_tables), e, folder);
   const std::string run_yaml = readable_text(run.results, "run.yaml", &e);
   const std::vector<HistoryRow> history = read_history(run.results, &e);
   Drawn drawn;

@@ -141,23 +141,6 @@ bool interprets(const Table& table) {
   return !kPlain.contains(table.name);
 }
 
-std::string tables_section(const std::vector<Table>& tables, bool equilibrium) {
-  constexpr size_t kMaxRows = 200;  // longer tables are linked as CSV only
-  std::string out = "<h2>Tables</h2>\n";
-  for (const Table& table : tables) {
-    if (!equilibrium && interprets(table)) continue;
-    const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
-    if (table.rows.size() > kMaxRows) {
-      out += fmt::format("<p>{}: {} in {}.</p>\n", markup_text(table.title),
-                         counted(table.rows.size(), "row"), link);
-      continue;
-    }
-    out += fmt::format("<details><summary>{}</summary>\n{}<p>Full precision: {}.</p></details>\n",
-                       markup_text(table.title), html_table(table), link);
-  }
-  return out;
-}
-
 std::string files_section(bool equilibrium, bool ties, bool pictures) {
   std::string out = "<h2>Files</h2>\n<dl>\n";
   const auto row = [&out](const char* file, const char* what) {
@@ -193,6 +176,23 @@ std::string run_section(const ReportInput& input) {
 
 }  // namespace
 
+std::string tables_html(const std::vector<Table>& tables, bool equilibrium) {
+  constexpr size_t kMaxRows = 200;  // longer tables are linked as CSV only
+  std::string out = "<h2>Tables</h2>\n";
+  for (const Table& table : tables) {
+    if (!equilibrium && interprets(table)) continue;
+    const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
+    if (table.rows.size() > kMaxRows) {
+      out += fmt::format("<p>{}: {} in {}.</p>\n", markup_text(table.title),
+                         counted(table.rows.size(), "row"), link);
+      continue;
+    }
+    out += fmt::format("<details><summary>{}</summary>\n{}<p>Full precision: {}.</p></details>\n",
+                       markup_text(table.title), html_table(table), link);
+  }
+  return out;
+}
+
 std::string report_html(const ReportInput& input) {
   const Evaluation& e = *input.evaluation;
   const std::string title = title_of(e.scene);
@@ -202,7 +202,7 @@ std::string report_html(const ReportInput& input) {
   body += at_rest(e) ? list_section(findings_heading(e.summary), finding_sentences(e))
                      : list_section("Motion", motion_sentences(e, input.history));
   body += figures_section(input);
-  body += tables_section(input.tables, at_rest(e));
+  body += input.tables;
   const Summary& s = e.summary;
   std::vector<std::string> quality = quality_sentences(e);
   if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));

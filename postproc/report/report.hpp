@@ -14,7 +14,7 @@ namespace cupola {
 /// Contents of a report.
 struct ReportInput {
   const Evaluation* evaluation = nullptr;
-  std::vector<Table> tables;
+  std::string tables;                       ///< tables_html()
   std::optional<StageReport> construction;  ///< of a staged run
   std::vector<HistoryRow> history;          ///< of a dynamic run
   std::string viewer;                       ///< the 3-D view, as HTML; may be empty
@@ -23,6 +23,10 @@ struct ReportInput {
   std::string picture_folder;  ///< of the standard views; "" if none were drawn
   std::string run_yaml;        ///< text of run.yaml; "" if it cannot be read
 };
+
+/// The tables as the report shows them: long ones as links to their CSV files. `equilibrium`: whether what
+/// interprets forces is shown.
+std::string tables_html(const std::vector<Table>& tables, bool equilibrium);
 
 /// report.html as one self-contained file: first_screen(), ranges of a range analysis, findings, figures,
 /// tables, solution quality, case, files and run information, in this order. A run that found no equilibrium

@@ -73,6 +73,7 @@ Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
 
   const std::vector<BlockRow> blocks = block_rows(evaluation_, e);
   std::vector<BlockRow> parts;
+  parts.reserve(assembly.parts.size());
   for (const Part& part : assembly.parts) {
     parts.push_back(blocks[part.block]);
     parts.back().ring = part.ring;
