@@ -101,8 +101,8 @@ VecX multiply(const SingleBlockRows& A, const VecX& x) {
 
 template <class Left, class Right>
 BlockRows multiply(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B) {
-  constexpr double kOperationsPerEntry = 3000.0;  // each entry of A multiplies a row of B
-  const double work = kOperationsPerEntry * static_cast<double>(A.value.size());
+  constexpr double kOperationsPerRow = 3000.0;  // each entry of A multiplies a row of B
+  const double work = kOperationsPerRow * static_cast<double>(A.value.size());
   CUPOLA_ASSERT(A.num_columns == B.num_rows());
   BlockRows C;
   C.num_columns = B.num_columns;
