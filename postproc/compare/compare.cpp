@@ -117,7 +117,7 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
       {"rings", "largest_friction_use", 100.0, "Largest friction use of a bed (%)",
        "Friction utilisation of the beds"},
       {"rings", "largest_kern_use", 1.0, "Largest kern use of a bed", "Eccentricity of the bed forces"}};
-  overlays.push_back({"stages", "least_stands", 1.0, "Friction required of the fresh mortar",
+  overlays.push_back({"stages", "least_stands", 1.0, "Least friction, or cohesion (Pa), of fresh mortar",
                       "Construction, stage by stage"});
   for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
     const std::string name = table.substr(7);

@@ -56,7 +56,10 @@ StickingSystem sticking_system(const CoulombSubproblem& sub) {
 }
 
 bool keeps_sticking(const CoulombSubproblem& sub, const CoulombPoint& point) {
-  constexpr double kShare = 0.03, kRounding = 1e-12;
+  // Chosen: domes that stick give up to 0.01, domes that slide 0.05 and more, blocks that jam between uprights
+  // 0.5 and more.
+  constexpr double kShare = 0.03;
+  constexpr double kRounding = 1e-12;
   for (Eigen::Index k = 0; k < point.F.size(); k += 6) {
     const auto free = sub.p.v_star.segment<6>(k);
     const double by_contacts = (point.w.segment<6>(k) - free).norm();
