@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include <fmt/format.h>
@@ -11,7 +13,7 @@
 #include "solver/analysis/construction/construction_progress.hpp"
 #include "solver/analysis/construction/stage_measures.hpp"
 #include "solver/analysis/statics/static_record.hpp"
-#include "solver/runtime/threads.hpp"
+#include "solver/runtime/ordered_loop.hpp"
 
 namespace cupola {
 
@@ -25,13 +27,13 @@ class ConstructionRun {
  private:
   void resume();
   bool lay_foundation();
-  bool may_go_on();
+  bool may_go_on(const Construction& building);
   void advance();
-  void advance_at_once();
+  bool advance_at_once();
   void record(const Construction& building, const SolvedStage& stage);
   void summarize(const Construction& building, const SolvedStage& stage);
   bool has_frame(const SolvedStage& stage) const;
-  void save();
+  void save(const Construction& building);
   void write_tables() const;
 
   const Case& scene_;
@@ -98,33 +100,40 @@ void ConstructionRun::advance() {
   if (!progress_.ended) building_.accept(stage.solution);
 }
 
-/// Some stages of whole courses without carried state, which do not know each other: each thread solves
-/// whole ones, and they are recorded in their order.
-void ConstructionRun::advance_at_once() {
-  constexpr double kWork = 1e12;  // of one batch: always worth all threads
-  constexpr int kStagesPerThread = 4;
+/// Stages of whole courses without carried state, which do not know each other: each thread solves whole
+/// ones, and they are recorded in their order beside that. False if the user wants to stop.
+bool ConstructionRun::advance_at_once() {
+  constexpr double kWork = 1e12;  // of all stages: always worth all threads
   struct Separate {
     Construction building;
-    SolvedStage stage;
-    std::vector<std::string> log;
+    SolvedStage stage{};
+    std::vector<std::string> log{};
   };
-  const int threads = num_threads(), left = static_cast<int>(stages_.size()) - progress_.next;
-  std::vector<Separate> batch;
-  for (int i = 0; i < std::min(left, threads == 1 ? 1 : kStagesPerThread * threads); ++i) {
-    const LaidBlocks& laid = stages_[progress_.next + i];
-    building_.lay(laid.blocks, laid.ring);
-    batch.push_back({building_, {}, {}});
-  }
-  share_loop(threads == 1 ? 0.0 : kWork, static_cast<int>(batch.size()), [&](int i) {
-    Separate& own = batch[i];
-    if (threads > 1) own.building.log_to([&own](const std::string& line) { own.log.push_back(line); });
+  const int first = progress_.next, left = static_cast<int>(stages_.size()) - first;
+  std::vector<std::unique_ptr<Separate>> separate(left);
+  std::mutex laying;
+  int laid = 0;
+  const auto lay = [&](int i) -> Separate& {
+    const std::lock_guard lock(laying);
+    for (; laid <= i; ++laid) {
+      building_.lay(stages_[first + laid].blocks, stages_[first + laid].ring);
+      separate[laid] = std::make_unique<Separate>(building_);
+    }
+    return *separate[i];
+  };
+  const auto solve = [&](int i) {
+    Separate& own = lay(i);
+    if (num_threads() > 1) own.building.log_to([&own](const std::string& line) { own.log.push_back(line); });
     LeastSearch search = search_;
     own.stage = solve_stage(&own.building, &search);
-  });
-  for (const Separate& own : batch) {
-    for (const std::string& line : own.log) sinks_.log(line);
-    record(own.building, own.stage);
-  }
+  };
+  const auto record_next = [&](int i) {
+    const std::unique_ptr<Separate> own = std::move(separate[i]);
+    for (const std::string& line : own->log) sinks_.log(line);
+    record(own->building, own->stage);
+    return i + 1 == left || may_go_on(own->building);
+  };
+  return share_in_order(kWork, left, solve, record_next);
 }
 
 /// Of a long construction, every n-th stage has a frame, so that the frames of n blocks laid one by one take
@@ -180,11 +189,11 @@ void ConstructionRun::write_tables() const {
   if (!progress_.failures_csv.empty()) sinks_.table("failures.csv", progress_.failures_csv);
 }
 
-void ConstructionRun::save() {
+void ConstructionRun::save(const Construction& building) {
   write_tables();
   ConstructionProgress progress = progress_;
   progress.last_bracket = search_.last();
-  BuiltState state = building_.state();
+  BuiltState state = building.state();
   ByteWriter archive;
   archive(progress, state);
   sinks_.checkpoint(archive.bytes());
@@ -199,10 +208,10 @@ void ConstructionRun::resume() {
 }
 
 /// False if the user wants to stop. Saves from time to time, and then.
-bool ConstructionRun::may_go_on() {
+bool ConstructionRun::may_go_on(const Construction& building) {
   if (progress_.next == 0) return true;
   const bool interrupted = sinks_.interrupted();
-  if (interrupted || saving_.is_due()) saving_.run([this] { save(); });
+  if (interrupted || saving_.is_due()) saving_.run([&] { save(building); });
   return !interrupted;
 }
 
@@ -214,11 +223,11 @@ std::optional<Summary> ConstructionRun::run() {
   else if (!lay_foundation())
     return summary_;
   while (progress_.next < static_cast<int>(stages_.size()) && !progress_.ended) {
-    if (!may_go_on()) return std::nullopt;
-    if (separate)
-      advance_at_once();
-    else
+    if (!may_go_on(building_)) return std::nullopt;
+    if (!separate)
       advance();
+    else if (!advance_at_once())
+      return std::nullopt;
   }
   write_tables();
   summary_.steps = progress_.solved;

@@ -6,6 +6,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -29,7 +30,7 @@ IterationLog::~IterationLog() {
 }
 
 void report_iteration(const char* method, int iteration, double accuracy, double tolerance) {
-  if (!printer.print) return;
+  if (!printer.print || inside_team) return;  // lines of several threads would mix
   const double now = wall_seconds();
   if (now - printer.last_time < printer.interval) return;
   printer.last_time = now;

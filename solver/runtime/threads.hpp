@@ -71,8 +71,8 @@ void run_team(double work, const Program& program) {
   inside_team = nested;
 }
 
-/// Returns freed memory to the system. Each thread allocates from its own heap, which is otherwise kept after
-/// the thread has ended.
+/// Returns freed memory to the system, if it is more than a little and no other solves use the heap, which
+/// all threads share.
 void release_freed_memory();
 
 /// Calls body(i) for i in [0, count) on a team (see run_team). If bodies throw, the exception of the smallest

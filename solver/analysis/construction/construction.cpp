@@ -27,7 +27,9 @@ Construction::Construction(const Case& scene, const Assembly& assembly,
 }
 
 void Construction::lay(const std::vector<int>& blocks, int ring) {
-  if (ring != state_.ring) {
+  if (!site_->scene.analysis.staged.carry) {
+    state_.ring = ring;  // no joint has forces yet
+  } else if (ring != state_.ring) {
     const Model before = stage_model(*site_, state_, {});
     state_.ring = ring;
     harden(before, stage_model(*site_, state_, {}));
