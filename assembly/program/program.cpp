@@ -26,7 +26,7 @@ namespace {
 // Sanitizers have an allocator of their own.
 #if defined(__GLIBC__) && !defined(CUPOLA_SANITIZED)
 constexpr int kReserve = 256 << 20;  // bytes of address space
-constexpr int kKept = 256 << 20;     // bytes of freed memory
+constexpr int kKept = 768 << 20;     // bytes of freed memory
 
 bool is_unlimited(decltype(RLIMIT_AS) resource) {
   rlimit limit{};
@@ -56,7 +56,7 @@ void keep_freed_memory() {
   if (reserve) reserve_large_pages();
   mallopt(M_TRIM_THRESHOLD, (reserve ? kReserve : 0) + kKept);
   mallopt(M_TOP_PAD, 4 << 20);
-  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);  // beyond it a vector gets fresh pages each time
 #endif
 }
 

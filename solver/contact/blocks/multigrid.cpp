@@ -219,10 +219,11 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     if (!aggregated) return false;
     const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
     level.P = in_single_precision(smoothed(A, level.inverse, aggregated->T, lambda));
-    level.P_transposed = transpose(level.P);
-    BlockRows coarse = multiply(level.P_transposed, multiply(A, level.P));
+    const BlockRows AP = multiply(A, level.P);
     level.A = in_single_precision(A);
-    A = std::move(coarse);
+    A = {};  // for a large model these matrices are most of the peak of a solve
+    level.P_transposed = transpose(level.P);
+    A = multiply(level.P_transposed, AP);
     levels_.push_back(std::move(level));
     motions = std::move(aggregated->coarse);
   }
