@@ -32,7 +32,7 @@ class Browser {
  public:
   using Json = nlohmann::json;
 
-  explicit Browser(int width = 1280, int height = 900, bool dark = false) {
+  Browser() {
     start(fresh_folder("browser"));
     const Json targets = send("Target.getTargets");
     for (const Json& target : targets["targetInfos"])
@@ -43,7 +43,6 @@ class Browser {
     for (const char* domain : {"Page", "Runtime", "Log", "Network"}) send(std::string(domain) + ".enable");
     send("Network.emulateNetworkConditions",
          {{"offline", true}, {"latency", 0}, {"downloadThroughput", -1}, {"uploadThroughput", -1}});
-    resize(width, height, dark);
   }
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
@@ -66,7 +65,7 @@ class Browser {
 
   void open(const std::string& file) { open_address("file://" + file); }
 
-  /// An empty page of the first size without complaints; a page of before is gone.
+  /// An empty light page of 1280 x 900 pixels without complaints; a page of before is gone. Call it first.
   void start_anew() {
     resize(1280, 900, false);
     open_address("about:blank");

@@ -71,15 +71,16 @@ std::string analysed_column(const std::string& name, Status status = Status::sta
 
 /// Opens a page `width` pixels wide and expects that it fits, that all its images load, and that it complains
 /// of nothing. Returns the number of images.
-int images_in_browser(const std::string& page, int width) {
-  Browser browser(width);
-  browser.open(page);
-  browser.value("window.cupolaView && window.cupolaView.then(() => true)");
-  EXPECT_EQ(browser.value("innerWidth"), width);
-  EXPECT_EQ(browser.value("document.documentElement.scrollWidth - document.documentElement.clientWidth"), 0);
-  EXPECT_EQ(browser.value("[...document.images].filter((i) => !i.complete || !i.naturalWidth).length"), 0);
-  EXPECT_EQ(fmt::format("{}", fmt::join(browser.complaints(), "\n")), "");
-  return browser.value("document.images.length");
+int images_in_browser(Browser* browser, const std::string& page, int width) {
+  browser->start_anew();
+  browser->resize(width, 900, false);
+  browser->open(page);
+  browser->value("window.cupolaView && window.cupolaView.then(() => true)");
+  EXPECT_EQ(browser->value("innerWidth"), width);
+  EXPECT_EQ(browser->value("document.documentElement.scrollWidth - document.documentElement.clientWidth"), 0);
+  EXPECT_EQ(browser->value("[...document.images].filter((i) => !i.complete || !i.naturalWidth).length"), 0);
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
+  return browser->value("document.images.length");
 }
 
 TEST(Report, OpensInABrowserWideAndNarrow) {
@@ -89,7 +90,9 @@ TEST(Report, OpensInABrowserWideAndNarrow) {
   for (const auto& entry : std::filesystem::directory_iterator(post + "/figures"))
     figures += entry.path().extension() == ".gp" ? 1 : 0;
   EXPECT_EQ(figures > 0, on_path("gnuplot"));
-  for (const int width : {1280, 400}) EXPECT_EQ(images_in_browser(post + "/report.html", width), figures);
+  Browser browser;
+  for (const int width : {1280, 400})
+    EXPECT_EQ(images_in_browser(&browser, post + "/report.html", width), figures);
 }
 
 TEST(Report, EscapesTheTitleAndStatesTheVerdict) {
@@ -360,8 +363,9 @@ TEST(Comparison, OpensInABrowserAndNamesTheRuns) {
   EXPECT_EQ(read_text(out + "/comparison.html").find("Uniformity of the bed pressure"), std::string::npos)
       << "one block per ring: nothing to plot";
   if (!test::has_browser()) GTEST_SKIP() << "chromium is not installed";
+  Browser browser;
   for (const int width : {1280, 400}) {
-    const int images = images_in_browser(out + "/comparison.html", width);
+    const int images = images_in_browser(&browser, out + "/comparison.html", width);
     EXPECT_TRUE(images > 0 || !on_path("gnuplot"));
   }
 }
