@@ -121,7 +121,7 @@ void Embedding::complete(const EmbeddingResiduals& r, double remove, EmbeddingSt
       d_z = d_z.cwiseQuotient(contact.to_cone);
     step->cone_gamma.push_back(d_gamma);
     step->cone_z.push_back(d_z);
-    step->length = std::min(step->length, contact.largest_step(d_gamma, d_z));
+    step->length = contact.largest_step(d_gamma, d_z, step->length);
   }
   const auto keep_positive = [step](double x, double change) {
     if (change < 0.0) step->length = std::min(step->length, -x / change);

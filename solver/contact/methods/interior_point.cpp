@@ -144,7 +144,7 @@ Step InteriorPoint::direction(const std::vector<Vec3>& d) const {
     const Vec3 d_z = contact.nt.W * (d[i] - contact.nt.W * d_gamma);
     step.gamma.segment<3>(3 * i) = d_gamma;
     step.z.segment<3>(3 * i) = d_z;
-    step.length = std::min(step.length, contact.largest_step(d_gamma, d_z));
+    step.length = contact.largest_step(d_gamma, d_z, step.length);
   }
   return step;
 }

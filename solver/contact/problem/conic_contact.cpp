@@ -37,12 +37,11 @@ Vec3 ConicContact::d(double target, const Vec3& affine_gamma, const Vec3& affine
   return jordan_quotient(nt.lambda, Vec3(target * Vec3::UnitX() - jordan_product(a, c))) - nt.lambda;
 }
 
-double ConicContact::largest_step(const Vec3& d_gamma, const Vec3& d_z) const {
-  if (!frictionless) return std::min(step_to_boundary(gamma, d_gamma, 10.0), step_to_boundary(z, d_z, 10.0));
-  double t = 10.0;
-  if (d_gamma[0] < 0.0) t = std::min(t, -gamma[0] / d_gamma[0]);
-  if (d_z[0] < 0.0) t = std::min(t, -z[0] / d_z[0]);
-  return t;
+double ConicContact::largest_step(const Vec3& d_gamma, const Vec3& d_z, double limit) const {
+  if (!frictionless) return step_to_boundary(z, d_z, step_to_boundary(gamma, d_gamma, limit));
+  if (d_gamma[0] < 0.0) limit = std::min(limit, -gamma[0] / d_gamma[0]);
+  if (d_z[0] < 0.0) limit = std::min(limit, -z[0] / d_z[0]);
+  return limit;
 }
 
 Mat3 ConicContact::compliance() const {

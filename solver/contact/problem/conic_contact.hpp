@@ -25,8 +25,8 @@ struct ConicContact {
   /// Scaled right-hand side lambda \ (target e - lambda o lambda - (W^-1 dz) o (W dgamma)) for the given
   /// affine step (dgamma, dz).
   Vec3 d(double target, const Vec3& affine_gamma, const Vec3& affine_z) const;
-  /// Longest step, at most 10, that stays in the cones.
-  double largest_step(const Vec3& d_gamma, const Vec3& d_z) const;
+  /// Longest step, at most `limit`, that stays in the cones.
+  double largest_step(const Vec3& d_gamma, const Vec3& d_z, double limit) const;
   /// S W^2 S, the inverse of G where E is zero.
   Mat3 compliance() const;
   /// The force gamma = S^-1 gamma^.

@@ -25,6 +25,9 @@ Vec3 jordan_quotient(const Vec3& x, const Vec3& y) {
 }
 
 double step_to_boundary(const Vec3& x, const Vec3& d, double limit) {
+  // Most contacts do not limit the step: no roots for them.
+  if (const Vec3 end = x + limit * d; end[0] > 0.0 && end[0] * end[0] > end.tail<2>().squaredNorm())
+    return limit;
   // x + t d leaves K at the smallest positive root of a t^2 + 2 b t + c, the determinant along the line.
   const double a = cone_determinant(d);
   const double b = x[0] * d[0] - x.tail<2>().dot(d.tail<2>());
