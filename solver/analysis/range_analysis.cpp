@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "solver/analysis/admissible/range_end.hpp"
 #include "solver/analysis/admissible/range_objectives.hpp"
 #include "solver/analysis/admissible/range_record.hpp"
+#include "solver/analysis/admissible/range_run.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
@@ -19,7 +19,6 @@
 #include "solver/conic/motion_proof.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "solver/dynamics/scene_options.hpp"
-#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -54,122 +53,6 @@ std::vector<RangeObjective> all_objectives(const Case& scene, const Model& model
     for (RangeObjective& objective : range_objectives(quantity, scene, model, contacts))
       all.push_back(std::move(objective));
   return all;
-}
-
-std::string text_of(const RangeEnd& end) {
-  return end.value ? fmt::format("{:.10g}", *end.value) : to_string(end.outcome);
-}
-
-/// Both ends of every objective, first all greatest values; frames are written in their order.
-class RangeSearchRun {
- public:
-  RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives, const Case& of_case,
-                 const AnalysisSinks& sinks);
-
-  /// Solves the ends, as many at once as there are threads. False if the user wants to stop.
-  [[nodiscard]] bool run(std::vector<ForceRange>* ranges);
-  int solves() const { return solves_; }
-  int iterations() const { return iterations_; }
-  int of_sector() const { return of_sector_; }  ///< ranges for which one sector was solved
-
- private:
-  bool run(double towards, const std::vector<int>& ends, std::vector<ForceRange>* ranges);
-  std::vector<int> least_to_solve(std::vector<ForceRange>* ranges) const;
-  void find_vanishing(const RangeSolution& state);
-  void write_frame(const std::string& end, RangeSolution* solution);
-
-  const RigidScene& scene_;
-  const std::vector<RangeObjective>& objectives_;
-  const bool states_;
-  const AnalysisSinks& sinks_;
-  std::optional<SectorProblem> sector_;
-  std::vector<SparseX> never_less_;  ///< coefficients_in_dual_cone() of the objectives
-  std::vector<char> vanishes_;       ///< in a state of another end
-  int frames_ = 1;                   // frame 0 is written before
-  int solves_ = 0, iterations_ = 0, of_sector_ = 0;
-};
-
-RangeSearchRun::RangeSearchRun(const RigidScene& scene, const std::vector<RangeObjective>& objectives,
-                               const Case& of_case, const AnalysisSinks& sinks)
-    : scene_(scene),
-      objectives_(objectives),
-      states_(of_case.analysis.range.states),
-      sinks_(sinks),
-      vanishes_(objectives.size(), 0) {
-  if (const int sectors = of_case.analysis.cyclic_sectors; sectors > 1) sector_.emplace(scene, sectors);
-  for (const RangeObjective& objective : objectives)
-    never_less_.push_back(coefficients_in_dual_cone(scene, objective));
-}
-
-/// `end`: "least thrust".
-void RangeSearchRun::write_frame(const std::string& end, RangeSolution* solution) {
-  if (!states_ || solution->gamma.size() == 0) return;
-  solution->end.frame = frames_;
-  Frame frame = admissible_frame(scene_, solution->gamma, frames_++);
-  const bool unbounded = solution->end.outcome == RangeOutcome::unbounded;
-  set_role(unbounded ? FrameRole::self_stress : FrameRole::range_end, end, &frame);
-  sinks_.frame(frame);
-}
-
-void RangeSearchRun::find_vanishing(const RangeSolution& state) {
-  constexpr double kNothing = 1e-9;  // of one block's weight; ConicOptions::tolerance
-  if (!state.admissible) return;
-  for (size_t i = 0; i < objectives_.size(); ++i) {
-    if (vanishes_[i] || never_less_[i].nonZeros() == 0) continue;
-    if (objectives_[i].mean_of_images && !state.of_sector) continue;
-    vanishes_[i] = never_less_[i].dot(state.gamma) <= kNothing * scene_.model.block_weight;
-  }
-}
-
-/// Those that no state found so far attains, or all where each shall have its own state.
-std::vector<int> RangeSearchRun::least_to_solve(std::vector<ForceRange>* ranges) const {
-  std::vector<int> ends;
-  for (size_t i = 0; i < objectives_.size(); ++i) {
-    const double least = objectives_[i].value.constant;
-    if (vanishes_[i] && !states_)
-      (*ranges)[i].min = {RangeOutcome::bounded, least, least, {}};
-    else
-      ends.push_back(static_cast<int>(i));
-  }
-  return ends;
-}
-
-bool RangeSearchRun::run(double towards, const std::vector<int>& ends, std::vector<ForceRange>* ranges) {
-  constexpr double kWork = 1e12;  // of one batch: always worth all threads
-  const int count = static_cast<int>(ends.size());
-  constexpr int kSolvesPerThread = 8;  // of a batch, which ends when the last of them does
-  const int batch = num_threads() == 1 ? 1 : num_threads() * kSolvesPerThread;
-  const std::string name = towards > 0.0 ? "least" : "greatest";
-  for (int first = 0; first < count; first += batch) {
-    if (sinks_.interrupted()) return false;
-    const int size = std::min(batch, count - first);
-    std::vector<RangeSolution> found(static_cast<size_t>(size));
-    share_loop(kWork, size, [&](int i) {
-      found[i] = range_end(scene_, objectives_[ends[first + i]], towards, sector_ ? &*sector_ : nullptr);
-    });
-    for (int i = 0; i < size; ++i) {
-      ForceRange& range = (*ranges)[ends[first + i]];
-      of_sector_ += found[i].of_sector && towards < 0.0 ? 1 : 0;
-      write_frame(fmt::format("{} {}", name, range.quantity), &found[i]);
-      find_vanishing(found[i]);
-      ++solves_;
-      iterations_ += found[i].iterations;
-      (towards > 0.0 ? range.min : range.max) = found[i].end;
-      sinks_.log(fmt::format("{:<8} end {:4d} of {}  {:<36} {:>18} {}", name, first + i + 1, count,
-                             range.quantity, text_of(found[i].end), range.unit));
-      sinks_.progress(0.5 * (static_cast<double>(first + i + 1) / count + (towards > 0.0 ? 1.0 : 0.0)),
-                      range.quantity);
-    }
-  }
-  return true;
-}
-
-bool RangeSearchRun::run(std::vector<ForceRange>* ranges) {
-  std::vector<int> all(objectives_.size());
-  std::iota(all.begin(), all.end(), 0);
-  for (const RangeObjective& objective : objectives_)
-    ranges->push_back({objective.quantity, objective.unit, {}, {}, {}, objective.joint});
-  return run(-1.0, all, ranges) && run(1.0, least_to_solve(ranges), ranges);
 }
 
 /// Fills in the values of the chosen state, whose contacts may be others.
@@ -236,7 +119,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
   summary.forces_unique = {false, "they are one of the admissible states"};
   const ChosenState chosen = chosen_state(scene, rigid, sinks);
   if (write_start(rigid, chosen, sinks, &summary)) {
-    RangeSearchRun run(rigid, objectives, scene, sinks);
+    RangeRun run(rigid, objectives, scene, sinks);
     if (!run.run(&summary.ranges)) return std::nullopt;
     add_chosen(chosen, scene, rigid.model, &summary.ranges);
     summary.steps = run.solves();
@@ -258,6 +141,8 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
       summary.message +=
           fmt::format("; one of {} sectors was solved for {} of {} quantities, those that repeat", sectors,
                       run.of_sector(), summary.ranges.size());
+    if (run.images() > 0)
+      summary.message += fmt::format("; {} ends follow from others by symmetry", run.images());
     sinks.table("ranges.csv", ranges_csv(summary.ranges));
   }
   summary.message += gaps_note(rigid.contacts, assembly);

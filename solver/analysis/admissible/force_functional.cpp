@@ -7,16 +7,16 @@ namespace cupola {
 
 double ForceFunctional::operator()(const JointForces& forces) const {
   double value = constant;
-  for (size_t i = 0; i < contacts.size(); ++i) value += contacts[i].dot(forces.contacts[i]);
+  for (const auto& [i, coefficient] : contacts) value += coefficient.dot(forces.contacts[i]);
   for (size_t i = 0; i < ties.size(); ++i) value += ties[i] * forces.ties[i];
   return value;
 }
 
 VecX ForceFunctional::coefficients(const ContactSet& set) const {
-  const auto nc = static_cast<Eigen::Index>(contacts.size());
+  const Eigen::Index nc = std::ssize(set.points);
   VecX c = VecX::Zero(3 * (nc + static_cast<Eigen::Index>(ties.size())));
-  for (Eigen::Index i = 0; i < nc; ++i)
-    c.segment<3>(3 * i) = contact_frame(set.points[i].normal).transpose() * contacts[i];
+  for (const auto& [i, coefficient] : contacts)
+    c.segment<3>(3 * i) = contact_frame(set.points[i].normal).transpose() * coefficient;
   for (size_t i = 0; i < ties.size(); ++i) c[3 * (nc + static_cast<Eigen::Index>(i))] = ties[i];
   return c;
 }
@@ -30,13 +30,12 @@ std::string ForceScene::label(int block) const {
 }
 
 ForceFunctional ForceScene::zero() const {
-  return {std::vector<Vec3>(contacts.points.size(), Vec3::Zero()), std::vector<double>(model.ties.size()),
-          0.0};
+  return {{}, std::vector<double>(model.ties.size()), 0.0};
 }
 
 void ForceScene::add(const BlockPair& pair, int block, const Vec3& direction, ForceFunctional* f) const {
   for (const int i : pair.contacts)
-    f->contacts[i] += contacts.points[i].block_b == block ? direction : Vec3(-direction);
+    f->add(i, contacts.points[i].block_b == block ? direction : Vec3(-direction));
 }
 
 }  // namespace cupola

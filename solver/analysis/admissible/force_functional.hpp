@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,11 +13,14 @@ namespace cupola {
 
 /// A linear function of the forces between blocks.
 struct ForceFunctional {
-  std::vector<Vec3> contacts;  ///< coefficient of the force on block b, world axes (nc)
-  std::vector<double> ties;    ///< coefficient of the force of each tie
+  std::map<int, Vec3> contacts;  ///< coefficient of the force of a contact on block b, world axes
+  std::vector<double> ties;      ///< coefficient of the force of each tie
   double constant = 0.0;
 
   double operator()(const JointForces& forces) const;
+  void add(int contact, const Vec3& coefficient) {
+    contacts.try_emplace(contact, Vec3::Zero()).first->second += coefficient;
+  }
   /// Its coefficients in the unknowns of a contact problem: three rows per contact, then three per tie.
   VecX coefficients(const ContactSet& contacts) const;
 };

@@ -33,10 +33,10 @@ Vec3 in_plane(const JointForce& joint, const BlockPair& pair, const ForceScene& 
 RangeObjective normal_force(int block_a, int block_b, const ForceScene& scene) {
   ForceFunctional f = scene.zero();
   for (const int i : scene.joints.pair(block_a, block_b).contacts)
-    f.contacts[i] = scene.contacts.points[i].normal;  // compression positive
+    f.add(i, scene.contacts.points[i].normal);  // compression positive
   return {fmt::format("normal force of joint {}-{}", scene.label(block_a), scene.label(block_b)),
           "N",
-          f,
+          std::move(f),
           {},
           std::minmax({block_a, block_b})};
 }
@@ -56,7 +56,7 @@ RangeObjective objective_of(const JointForce& joint, const ForceScene& scene) {
     const Vec3 d = in_plane(joint, pair, scene);
     ForceFunctional moment = pressure.value;
     for (const int i : pair.contacts)
-      moment.contacts[i] *= d.dot(scene.contacts.points[i].point_a - pair.centroid);
+      moment.contacts.at(i) *= d.dot(scene.contacts.points[i].point_a - pair.centroid);
     return {name, "m", moment, pressure.value};
   }
   const Vec3 direction = joint.component == shear ? in_plane(joint, pair, scene)
@@ -82,7 +82,7 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
     for (const int i : pair.contacts) {
       const Contact& contact = scene.contacts.points[i];
       const Vec3 direction = kMean * scene.joints.outward(contact.point_a, in_ring(a) ? a : b);
-      f.contacts[i] = in_ring(contact.block_b) ? direction : Vec3(-direction);
+      f.add(i, in_ring(contact.block_b) ? direction : Vec3(-direction));
     }
   }
   const State rest = state_at_rest(scene.model);

@@ -66,6 +66,24 @@ double largest_normal_force(const VecX& gamma) {
   return largest;
 }
 
+/// To what a range promises: relative to the value, or to `small`.
+bool are_close(const ConicBounds& bounds, double small = 0.0) {
+  constexpr double kProven = 1e-6;
+  const double size = std::max({std::abs(bounds.upper), std::abs(bounds.lower), small});
+  return bounds.imbalance <= kProven && std::abs(bounds.upper - bounds.lower) <= kProven * size;
+}
+
+RangeEnd end_of(const ConicBounds& bounds, bool bounded, double towards, double constant) {
+  RangeEnd end;
+  end.value = towards * bounds.upper + constant;
+  end.bound = towards * std::min(bounds.lower, bounds.upper) + constant;
+  if (!bounded) return end;
+  end.outcome = RangeOutcome::bounded;
+  // What its own bound does not tell from zero is zero.
+  if (std::abs(*end.value) <= std::abs(*end.value - *end.bound)) end.value = 0.0;
+  return end;
+}
+
 }  // namespace
 
 RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
@@ -82,21 +100,14 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
     solution = solve_conic(problem);
     found.iterations += solution.iterations;
   }
-  constexpr double kProven =
-      1e-6;  // relative: what a range promises, of a solution that rounding kept from its tolerance
   bool bounded = solution.outcome == ConicOutcome::optimal;
   found.admissible = bounded && !objective.over;
   if (bounded || solution.outcome == ConicOutcome::stalled) {
     const ConicBounds bounds = conic_bounds(problem, solution);
-    bounded = bounded || (bounds.imbalance <= kProven && bounds.relative_gap() <= kProven);
-    found.end.value = towards * bounds.upper + objective.value.constant;
-    found.end.bound = towards * std::min(bounds.lower, bounds.upper) + objective.value.constant;
+    bounded = bounded || are_close(bounds);  // rounding may have kept it from its tolerance
+    found.end = end_of(bounds, bounded, towards, objective.value.constant);
   }
-  if (bounded) {
-    found.end.outcome = RangeOutcome::bounded;
-    // What its own bound does not tell from zero is zero.
-    if (std::abs(*found.end.value) <= std::abs(*found.end.value - *found.end.bound)) found.end.value = 0.0;
-  }
+  found.v = std::move(solution.v);
   found.gamma = linear.of_sector ? sector->whole_forces(solution.gamma) : std::move(solution.gamma);
   // Infeasible: a ratio whose denominator is zero in every state.
   if (solution.outcome == ConicOutcome::unbounded) {
@@ -109,16 +120,35 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
   return found;
 }
 
+std::optional<RangeSolution> range_end_of(const RigidScene& scene, const RangeObjective& objective,
+                                          double towards, VecX gamma, VecX v) {
+  const ConicProblem problem = problem_of(objective_in(scene, objective, nullptr), towards);
+  ConicSolution solution;
+  solution.gamma = std::move(gamma);
+  solution.v = std::move(v);
+  const ConicBounds bounds = conic_bounds(problem, solution);
+  if (!are_close(bounds, scene.model.block_weight)) return std::nullopt;
+  RangeSolution found;
+  found.end = end_of(bounds, true, towards, objective.value.constant);
+  const double tolerance = ConicOptions().tolerance;
+  found.admissible = bounds.imbalance <= tolerance && bounds.cone_violation <= tolerance;
+  found.gamma = std::move(solution.gamma);
+  found.v = std::move(solution.v);
+  return found;
+}
+
 SparseX coefficients_in_dual_cone(const RigidScene& scene, const RangeObjective& objective) {
   constexpr double kRounding = 1e-12;  // of the axes of a contact, relative
   const ContactProblem& p = scene.problem.contacts;
   if (objective.over || scene.problem.has_strength()) return {};
   const VecX c = objective.value.coefficients(scene.contacts);
-  for (int i = 0; i < p.num_contacts(); ++i) {
+  SparseX sparse = c.sparseView();
+  for (SparseX::InnerIterator entry(sparse); entry; ++entry) {
+    const Eigen::Index i = entry.index() / 3;
     const Vec3 c_i = c.segment<3>(3 * i);
     if (c_i[0] < p.mu[i] * c_i.tail<2>().norm() - kRounding * c_i.norm()) return {};
   }
-  return c.sparseView();
+  return sparse;
 }
 
 double relative_gap(const ForceRange& range, double small) {

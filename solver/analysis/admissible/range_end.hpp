@@ -12,6 +12,7 @@ namespace cupola {
 struct RangeSolution {
   RangeEnd end;  ///< without frame
   VecX gamma;    ///< N: the state; of an unbounded end a self-stress whose largest force is one block weight
+  VecX v;        ///< the mechanism that proves the bound
   int iterations = 0;
   bool of_sector = false;   ///< one sector was solved
   bool admissible = false;  ///< gamma is a state, to the accuracy of solve_conic()
@@ -28,6 +29,11 @@ struct RangeSolution {
 /// The strength of joints is multiplied by t as well.
 RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
                         const SectorProblem* sector = nullptr);
+
+/// The end at the forces gamma with the mechanism v, of an objective that is no ratio. None if they do not
+/// prove it to what a range promises.
+std::optional<RangeSolution> range_end_of(const RigidScene& scene, const RangeObjective& objective,
+                                          double towards, VecX gamma, VecX v);
 
 /// The coefficients (3 nc) of an objective that no forces of dry joints make less than its constant, such as
 /// a normal force: they lie in the dual cone Y*. Its least value is proven as soon as they vanish in a state

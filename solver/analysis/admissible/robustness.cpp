@@ -2,14 +2,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "solver/analysis/admissible/rigid_scene.hpp"
-#include "solver/analysis/statics/cyclic_symmetry.hpp"
+#include "solver/analysis/statics/model_symmetry.hpp"
 #include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "solver/runtime/threads.hpp"
@@ -39,20 +39,6 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
   return {true, -bounds.upper, -std::min(bounds.lower, bounds.upper)};
 }
 
-/// The largest number of equal sectors around the z axis into which the scene divides, of those that divide
-/// `count`.
-int equal_sectors(const RigidScene& scene, int count) {
-  for (int sectors = count; sectors > 1; --sectors) {
-    if (count % sectors != 0) continue;
-    try {
-      find_cyclic_symmetry(scene.model, scene.start, scene.contacts, sectors);
-      return sectors;
-    } catch (const InputError&) {  // it has not this symmetry
-    }
-  }
-  return 1;
-}
-
 }  // namespace
 
 std::optional<Robustness> find_robustness(const Case& scene, const Assembly& assembly) {
@@ -62,7 +48,7 @@ std::optional<Robustness> find_robustness(const Case& scene, const Assembly& ass
   const RigidScene rest =
       rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
   // A rotation by a sector maps each direction on another one, with the same limit.
-  const int different = count / equal_sectors(rest, count);
+  const int different = count / std::gcd(count, num_equal_sectors(rest.model, rest.start, rest.contacts));
   std::vector<DirectionLimit> limits(static_cast<size_t>(different));
   share_loop(kWork, different, [&](int k) {
     for (int image = k; image < count && !limits[k].found; image += different)

@@ -84,8 +84,8 @@ TEST(Range, LeastForcesAreProvenByTheStatesOfOtherEnds) {
   const Assembly slab = table(1.5, 0.2);
   const double inner = 1.4, outer = 1.6, weight = weight_of(slab);
   Case scene = range_case(0.5, {AllJoints{}});
-  for (const int solves : {4, 8}) {
-    scene.analysis.range.states = solves == 8;
+  for (const int solves : {1, 2}) {  // the other legs follow by symmetry
+    scene.analysis.range.states = solves == 2;
     const Summary summary = ranges_of(scene, slab);
     EXPECT_EQ(summary.status, Status::stable) << summary.message;
     EXPECT_EQ(summary.steps, solves);
