@@ -46,11 +46,11 @@ CyclicSymmetry orbits_of(const ModelSymmetry& turn, int sectors, const Model& mo
   int short_orbit = -1;
   symmetry.blocks = orbits(turn.blocks, {}, sectors, &symmetry.block_of_orbit, &short_orbit);
   if (short_orbit >= 0)
-    throw InputError(
+    throw NotSymmetric(
         fmt::format("block {} returns to its place before a full turn", model.free_blocks[short_orbit]));
   symmetry.contacts = orbits(turn.contacts, turn.swapped, sectors, &symmetry.contact_of_orbit, &short_orbit);
   if (short_orbit >= 0)
-    throw InputError(
+    throw NotSymmetric(
         fmt::format("the contact between blocks {} and {} returns to its place before a full turn",
                     contacts.points[short_orbit].block_a, contacts.points[short_orbit].block_b));
   return symmetry;
@@ -67,7 +67,7 @@ CyclicSymmetry find_cyclic_symmetry(const Model& model, const State& start, cons
   const Mat3 turn = Eigen::AngleAxisd(2.0 * std::numbers::pi / sectors, Vec3::UnitZ()).toRotationMatrix();
   try {
     return orbits_of(find_symmetry(model, start, contacts, turn, Vec3::Zero()), sectors, model, contacts);
-  } catch (const InputError& e) {
+  } catch (const NotSymmetric& e) {
     throw InputError(fmt::format("analysis.cyclic_sectors = {}: the model does not have this symmetry: {}",
                                  sectors, e.what()));
   }

@@ -8,8 +8,6 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
-
 namespace cupola {
 namespace {
 
@@ -29,7 +27,7 @@ class SymmetryFinder {
   ModelSymmetry find() const;
 
  private:
-  [[noreturn]] void refuse(const std::string& reason) const { throw InputError(reason); }
+  [[noreturn]] void refuse(const std::string& reason) const { throw NotSymmetric(reason); }
   Vec3 image_of(const Vec3& point) const { return centre_ + R_ * (point - centre_); }
   std::vector<int> block_images() const;
   void check_block_image(int row, int image) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stdexcept>
 #include <vector>
 
 #include "solver/dynamics/time_step.hpp"
@@ -21,7 +22,12 @@ struct ModelSymmetry {
 /// a after b.
 ModelSymmetry operator*(const ModelSymmetry& a, const ModelSymmetry& b);
 
-/// The images under x -> centre + R (x - centre). Throws InputError if the model is not symmetric; the
+/// A model does not have a symmetry; the message says why.
+struct NotSymmetric : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The images under x -> centre + R (x - centre). Throws NotSymmetric if the model has not this symmetry; the
 /// message names the cause: the position, mass or load of a block, the position, gap or law of a contact,
 /// ties, or moving supports.
 ModelSymmetry find_symmetry(const Model& model, const State& start, const ContactSet& contacts, const Mat3& R,

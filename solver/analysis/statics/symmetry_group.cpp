@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "assembly/base/error.hpp"
 #include "solver/analysis/statics/model_symmetry.hpp"
 
 namespace cupola {
@@ -76,7 +75,7 @@ class SymmetrySearch {
   std::optional<ModelSymmetry> symmetry(const Mat3& R) const {
     try {
       return find_symmetry(model_, start_, contacts_, R, centre_);
-    } catch (const InputError&) {  // it has not this one
+    } catch (const NotSymmetric&) {  // it has not this one
       return std::nullopt;
     }
   }
