@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include <fmt/format.h>
 
@@ -66,7 +67,7 @@ std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const Res
 /// picture of the motion shows.
 std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
                                       Film* film) {
-  const DisplacedBlocks blocks(*e);
+  DisplacedBlocks blocks(*e);
   std::vector<PvdEntry> entries;
   std::vector<size_t> moving;
   for (size_t i = 0; i < e->times.size(); ++i) {
@@ -74,7 +75,7 @@ std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::s
     const FrameEvaluation* frame = frame_at(i, results, e, &other);
     if (frame == nullptr) continue;
     const std::string name = fmt::format("blocks_{:04}.vtu", i);
-    Mesh mesh = blocks.at(*frame);
+    Mesh& mesh = blocks.at(*frame);
     for (MeshArray& array : about(*e, 0.0)) mesh.field_data.push_back(std::move(array));
     write_mesh(in_folder(folder, name), mesh);
     film->add(i, *frame);
@@ -125,10 +126,31 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
 
 /// Writes all tables, and returns what the report shows of them: those of joints and blocks may be large.
 std::string write_tables(std::vector<Table> first, const Evaluation& e, const std::string& folder) {
-  for (Table& table : result_tables(e)) first.push_back(std::move(table));
-  for (const Table& table : first)
-    write_text_atomically(in_folder(folder, table.name + ".csv"), to_csv(table));
-  return tables_html(first, at_rest(e));
+  std::vector<Table> shown;
+  std::vector<std::string> pieces;  // of the last of them
+  const auto write_last = [&] {
+    if (shown.empty()) return;
+    write_atomically(in_folder(folder, shown.back().name + ".csv"), [&](const std::string& side) {
+      std::ofstream out(side, std::ios::binary);
+      for (const std::string& piece : pieces) out << piece;
+      out.close();
+      return static_cast<bool>(out);
+    });
+  };
+  const auto add = [&](Table table) {
+    if (!shown.empty() && shown.back().name == table.name) {
+      append_csv_rows(table, &pieces.emplace_back());
+      shown.back().rows_elsewhere += table.rows.size();
+      return;
+    }
+    write_last();
+    pieces = {to_csv(table)};
+    shown.push_back(std::move(table));
+  };
+  for (Table& table : first) add(std::move(table));
+  visit_tables(e, add);
+  write_last();
+  return tables_html(shown, at_rest(e));
 }
 
 void write_report(const AnalyseRequest& request, const std::string& tables,

@@ -51,7 +51,7 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   else
     warnings.emplace_back("no equilibrium was found, therefore no forces were exported");
   if (path.ends_with(".csv"))
-    write_text_atomically(path, to_csv(joint_table(e)));
+    write_text_atomically(path, to_csv(joint_table(e, e.last.joints.wrenches)));
   else
     write_export(path, model);
   report_warnings("cupola-post", warnings, run.doubts, false);

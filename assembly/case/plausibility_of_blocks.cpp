@@ -14,14 +14,18 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Corners of the free blocks, or of all blocks if none is free.
+/// Corners of the free blocks, or of all blocks if none is free; each of them once.
 std::vector<Vec3> corners(const Assembly& assembly) {
   std::vector<Vec3> points;
+  std::vector<bool> is_known(assembly.vertices.size(), false);
   for (const bool fixed_too : {false, true}) {
     for (const Part& part : assembly.parts) {
       if (!fixed_too && assembly.blocks[static_cast<size_t>(part.block)].fixed) continue;
       for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
-        for (const int v : assembly.face(f)) points.push_back(assembly.vertices[static_cast<size_t>(v)]);
+        for (const int v : assembly.face(f)) {
+          if (!is_known[static_cast<size_t>(v)]) points.push_back(assembly.vertices[static_cast<size_t>(v)]);
+          is_known[static_cast<size_t>(v)] = true;
+        }
     }
     if (!points.empty()) break;
   }

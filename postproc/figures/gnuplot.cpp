@@ -1,5 +1,7 @@
 #include "postproc/figures/gnuplot.hpp"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -141,18 +143,17 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
 }
 
 std::string data_block(const std::string& name, const std::vector<std::vector<double>>& rows) {
-  fmt::memory_buffer out;
-  fmt::format_to(std::back_inserter(out), "${} << EOD\n", name);
+  std::string out = fmt::format("${} << EOD\n", name);
+  std::array<char, 32> digits{};
   for (const auto& row : rows) {
-    for (const double value : row)
-      if (std::isfinite(value))
-        fmt::format_to(std::back_inserter(out), "{:.9g} ", value);
-      else
-        fmt::format_to(std::back_inserter(out), "NaN ");
+    for (const double value : row) {
+      const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(), value,
+                                              std::chars_format::general, /*precision=*/9);
+      out.append(std::isfinite(value) ? std::string_view(digits.data(), end) : "NaN").push_back(' ');
+    }
     out.push_back('\n');
   }
-  fmt::format_to(std::back_inserter(out), "EOD\n");
-  return fmt::to_string(out);
+  return out + "EOD\n";
 }
 
 std::vector<PanelBox> panel_grid(size_t rows, size_t columns, const PanelBox& frame, double column_gap,

@@ -31,7 +31,7 @@ std::string map_axes(const ShellMap& map) {
 /// colours, all others in grey.
 std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const std::string& name,
                   const std::string& grey, const std::string& settings) {
-  Rows known, others;
+  Rows known, others, pulls;
   for (const ShellBox& box : map.boxes) {
     const double v = value(box);
     // A block that crosses +-180 degrees is drawn at both ends.
@@ -41,19 +41,21 @@ std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const s
       std::vector<double> row{
           0.5 * (box.from + box.to) + turn, r + 0.5, box.from + turn, box.to + turn, r, r + 1.0};
       if (std::isfinite(v)) row.push_back(v);
+      if (v < 0.0) pulls.push_back({row[0], row[1]});
       (std::isfinite(v) ? known : others).push_back(std::move(row));
     }
   }
   std::string plots;
   if (!known.empty())
     plots += fmt::format("${} using 1:2:3:4:5:6:7 with boxxyerror fc palette notitle", name);
-  if (std::ranges::any_of(known, [](const std::vector<double>& row) { return row.back() < 0.0; }))
-    plots += fmt::format(
-        ", ${} using ($7 < 0 ? $1 : NaN):2 with points pt 7 ps 0.3 lc rgb '#222222' title 'tension'", name);
+  if (!pulls.empty())
+    plots +=
+        fmt::format(", ${}_pulls using 1:2 with points pt 7 ps 0.3 lc rgb '#222222' title 'tension'", name);
   if (!others.empty())
     plots += fmt::format("{}${}_grey using 1:2:3:4:5:6 with boxxyerror fc rgb '{}' title '{}'",
                          plots.empty() ? "" : ", ", name, kGrey, grey);
-  return data_block(name, known) + data_block(name + "_grey", others) + settings + "plot " + plots + "\n";
+  return data_block(name, known) + data_block(name + "_pulls", pulls) + data_block(name + "_grey", others) +
+         settings + "plot " + plots + "\n";
 }
 
 /// kN/m; NaN for negligible forces, which block_fields() sets to zero.

@@ -8,41 +8,16 @@
 
 namespace cupola {
 
-std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed, const Sheet& axis) {
-  std::map<int, BlockBed> blocks;
-  for (const BedFacet& facet : bed) {
-    const auto [entry, is_new] = blocks.try_emplace(facet.block);
-    BlockBed& block = entry->second;
-    const double a = azimuth(axis.own(facet.intrados_a));
-    if (is_new) block.from = block.to = a;
-    for (const Vec3& corner : {facet.intrados_a, facet.intrados_b}) {
-      const double angle = block.from + wrapped(azimuth(axis.own(corner)) - block.from);
-      block.from = std::min(block.from, angle);
-      block.to = std::max(block.to, angle);
-    }
-    block.facets.push_back(&facet);
-  }
-  for (auto& [id, block] : blocks) {
-    Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
-    for (const BedFacet* f : block.facets) {
-      normal += (f->intrados_b - f->extrados_a).cross(f->extrados_b - f->intrados_a);
-      mean += 0.25 * (f->intrados_a + f->intrados_b + f->extrados_a + f->extrados_b);
-    }
-    normal.normalize();
-    block.plane = {normal, normal.dot(mean) / static_cast<double>(block.facets.size())};
-  }
-  return blocks;
-}
-
-double share_at(const BlockBed& block, const Vec3& x) {
-  const BedFacet* facet = block.facets.front();
+double share_at(const std::vector<BedFacet>& bed, const BlockBed& block, const Vec3& x) {
+  const BedFacet* facet = &bed[block.facets.front()];
   double nearest = std::numeric_limits<double>::infinity();
-  for (const BedFacet* f : block.facets) {
+  for (const int i : block.facets) {
+    const BedFacet& f = bed[i];
     const double distance =
-        (0.25 * (f->intrados_a + f->intrados_b + f->extrados_a + f->extrados_b) - x).squaredNorm();
+        (0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b) - x).squaredNorm();
     if (distance < nearest) {
       nearest = distance;
-      facet = f;
+      facet = &f;
     }
   }
   const auto from_edge = [&](const Vec3& a, const Vec3& b, const Vec3& inside) {
@@ -56,12 +31,12 @@ double share_at(const BlockBed& block, const Vec3& x) {
 }
 
 void add_bearing(const JointWrench& joint, const JointWrenches& joints, const ContactTable& contacts,
-                 const BlockBed& block, Bearing* bearing) {
+                 const std::vector<BedFacet>& bed, const BlockBed& block, Bearing* bearing) {
   for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
     const int row = joints.contacts[i];
     const double normal = contacts.normal_force[row];
     bearing->normal_force += normal;
-    bearing->weighted_share += normal * share_at(block, contacts.point[row]);
+    bearing->weighted_share += normal * share_at(bed, block, contacts.point[row]);
   }
 }
 

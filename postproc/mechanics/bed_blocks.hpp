@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <vector>
 
@@ -8,19 +7,9 @@
 
 namespace cupola {
 
-/// The facets of one block on one bed, their range of azimuths and their mean plane.
-struct BlockBed {
-  std::vector<const BedFacet*> facets;
-  double from = 0.0, to = 0.0;  // rad about the axis, unwrapped
-  Plane plane;
-};
-
-/// The blocks on a bed; `axis`: of its stack.
-std::map<int, BlockBed> blocks_on(const std::vector<BedFacet>& bed, const Sheet& axis);
-
 /// Share of the thickness of the shell at a point in the plane of the bed, from its distances to the inner
 /// and outer edges of the nearest facet.
-double share_at(const BlockBed& block, const Vec3& x);
+double share_at(const std::vector<BedFacet>& bed, const BlockBed& block, const Vec3& x);
 
 /// Normal forces on a bed, N, and their sum weighted by the shares of the thickness at which they act.
 struct Bearing {
@@ -32,7 +21,7 @@ struct Bearing {
 /// it lies: the facets of a bonder across a corner lie in several planes, and a wythe may be thinner than the
 /// bend between them is deep.
 void add_bearing(const JointWrench& joint, const JointWrenches& joints, const ContactTable& contacts,
-                 const BlockBed& block, Bearing* bearing);
+                 const std::vector<BedFacet>& bed, const BlockBed& block, Bearing* bearing);
 
 /// Shares of the thickness of the shell between which a line lies.
 struct Layers {

@@ -94,7 +94,9 @@ void measure(const Floor& floor, JointWrench* joint) {
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
                              double unbalanced) {
   JointWrenches out;
-  for (const Joint& joint : joints_of(contacts)) static_cast<Joint&>(out.wrenches.emplace_back()) = joint;
+  const std::vector<Joint> joints = joints_of(contacts);
+  out.wrenches.resize(joints.size());
+  for (size_t i = 0; i < joints.size(); ++i) static_cast<Joint&>(out.wrenches[i]) = joints[i];
   out.contacts.resize(static_cast<size_t>(contacts.size()));
   std::iota(out.contacts.begin(), out.contacts.end(), 0);
   std::stable_sort(out.contacts.begin(), out.contacts.end(),

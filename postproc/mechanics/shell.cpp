@@ -108,6 +108,38 @@ std::vector<Vec3> through_blocks(const Assembly& assembly, const Shell& shell) {
   return through;
 }
 
+/// The blocks on a bed; `axis`: of its stack.
+std::vector<BlockBed> blocks_on(const std::vector<BedFacet>& bed, const Sheet& axis) {
+  std::map<int, BlockBed> by_number;
+  for (size_t i = 0; i < bed.size(); ++i) {
+    const BedFacet& facet = bed[i];
+    const auto [entry, is_new] = by_number.try_emplace(facet.block);
+    BlockBed& block = entry->second;
+    if (is_new) block.from = block.to = azimuth(axis.own(facet.intrados_a));
+    for (const Vec3& corner : {facet.intrados_a, facet.intrados_b}) {
+      const double angle = block.from + wrapped(azimuth(axis.own(corner)) - block.from);
+      block.from = std::min(block.from, angle);
+      block.to = std::max(block.to, angle);
+    }
+    block.facets.push_back(static_cast<int>(i));
+  }
+  std::vector<BlockBed> blocks;
+  blocks.reserve(by_number.size());
+  for (auto& [number, block] : by_number) {
+    block.block = number;
+    Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
+    for (const int i : block.facets) {
+      const BedFacet& f = bed[i];
+      normal += (f.intrados_b - f.extrados_a).cross(f.extrados_b - f.intrados_a);
+      mean += 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
+    }
+    normal.normalize();
+    block.plane = {normal, normal.dot(mean) / static_cast<double>(block.facets.size())};
+    blocks.push_back(std::move(block));
+  }
+  return blocks;
+}
+
 }  // namespace
 
 double model_size(const Assembly& assembly) {
@@ -193,6 +225,9 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
     }
   }
   facets.add_to(&shell);
+  for (int k = 0; k <= num_rings; ++k)
+    shell.blocks.push_back(
+        blocks_on(shell.beds[k], assembly.axis_of(assembly.stack_of(std::min(k, num_rings - 1)).first)));
   while (static_cast<int>(shell.block_width_rad.size()) < num_rings) {
     const int first = static_cast<int>(shell.block_width_rad.size());
     const int end = std::min(assembly.stack_of(first).second, num_rings);

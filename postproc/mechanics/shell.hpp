@@ -16,6 +16,14 @@ struct BedFacet {
   double from = 0.0, to = 1.0;  ///< shares of the thickness of the shell at the inner and the outer edge
 };
 
+/// The facets of one block on one bed, their range of azimuths and their mean plane.
+struct BlockBed {
+  int block = 0;
+  std::vector<int> facets;      ///< into the bed
+  double from = 0.0, to = 0.0;  ///< rad about the axis of the stack, unwrapped
+  Plane plane;
+};
+
 /// Wythes from .. to - 1 of the thickness, counted from the inside as in Assembly::members; those of a drum
 /// come first, with numbers of their own.
 struct WytheRange {
@@ -28,9 +36,10 @@ struct WytheRange {
 /// An assembly seen as a shell of rings: bed k lies below ring k, counted from the springing, and bed
 /// num_rings closes the last ring. Imported blocks without rings have no beds.
 struct Shell {
-  std::vector<std::vector<BedFacet>> beds;  ///< (num_rings + 1), facets of each bed
-  std::vector<Vec3> progress;               ///< (num_rings), unit direction from ring to ring
-  Vec3 up = Vec3::UnitZ();                  ///< against gravity
+  std::vector<std::vector<BedFacet>> beds;    ///< (num_rings + 1), facets of each bed
+  std::vector<std::vector<BlockBed>> blocks;  ///< (num_rings + 1), those on each bed, by their numbers
+  std::vector<Vec3> progress;                 ///< (num_rings), unit direction from ring to ring
+  Vec3 up = Vec3::UnitZ();                    ///< against gravity
   /// (num_rings), rad, median width in azimuth of the standard blocks of the stack; 0: none.
   std::vector<double> block_width_rad;
   int num_wythes = 1;              ///< numbers in use; some may have no blocks

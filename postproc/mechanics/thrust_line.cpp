@@ -168,18 +168,19 @@ struct Push {
 };
 
 /// From the block's wrench: where its line of action meets the mean plane of the bed.
-Push push_of(const Wrench& w, const BlockBed& block, const Vec3& onwards) {
+Push push_of(const ThrustInput& in, const Wrench& w, int bed, const BlockBed& block) {
   const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
-  return {std::copysign(1.0, block.plane.normal.dot(onwards)) * block.plane.normal.dot(w.force),
-          share_at(block, x)};
+  const Vec3& normal = block.plane.normal;
+  return {std::copysign(1.0, normal.dot(in.shell->direction(bed))) * normal.dot(w.force),
+          share_at(in.shell->beds[bed], block, x)};
 }
 
 /// From the contact points of its joints on the bed.
-Push push_at_points(const ThrustInput& in, const Route& route, int id, int bed, const BlockBed& block) {
+Push push_at_points(const ThrustInput& in, const Route& route, int bed, const BlockBed& block) {
   Bearing bearing;
-  for (const JointWrench* joint : joints_on(in, id, bed))
+  for (const JointWrench* joint : joints_on(in, block.block, bed))
     if (!route.wythe || wythes_of(*in.assembly, *in.shell, *joint).contains(*route.wythe))
-      add_bearing(*joint, *in.joints, *in.contacts, block, &bearing);
+      add_bearing(*joint, *in.joints, *in.contacts, in.shell->beds[bed], block, &bearing);
   return {bearing.normal_force, bearing.share()};
 }
 
@@ -194,10 +195,10 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
   Wrench sum;
   sum.point = 0.5 * (point->intrados + point->extrados);
   double weighted_position = 0.0, pressing = 0.0;
-  const Vec3& onwards = in.shell->direction(bed);
-  for (const auto& [id, block] : blocks_on(in.shell->beds[bed], route.axis)) {
+  for (const BlockBed& block : in.shell->blocks[bed]) {
     const double share = meridian ? overlap(block, *meridian, route.width) : 1.0;
     if (share <= 0.0) continue;
+    const int id = block.block;
     if (wythe && is_undivided(in, id, bed)) return false;
     if (wythe && !in.shell->wythes[id].contains(*wythe)) continue;
     const Wrench w = wythe ? wrench_in_wythe(in, route, id, bed) : wrench_at_bed(in, id, bed);
@@ -208,8 +209,7 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
     // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
     // block's wrench.
     const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian);
-    const auto [normal, at] =
-        at_points ? push_at_points(in, route, id, bed, block) : push_of(w, block, onwards);
+    const auto [normal, at] = at_points ? push_at_points(in, route, bed, block) : push_of(in, w, bed, block);
     weighted_position += share * normal * layers.position(at);
     pressing += share * normal;
     ++point->blocks;
@@ -231,10 +231,10 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
   const bool last = bed == in.shell->num_rings();
   const ContactTable& c = *in.contacts;
   double force = 0.0, area = 0.0;
-  for (const auto& [id, block] : blocks_on(in.shell->beds[bed], route.axis)) {
+  for (const BlockBed& block : in.shell->blocks[bed]) {
     if (route.meridian && overlap(block, *route.meridian, route.width) <= 0.0) continue;
-    if (!last && in.assembly->blocks[id].ring != bed) continue;
-    for (const JointWrench* of_block : joints_on(in, id, bed)) {
+    if (!last && in.assembly->blocks[block.block].ring != bed) continue;
+    for (const JointWrench* of_block : joints_on(in, block.block, bed)) {
       const JointWrench& joint = *of_block;
       if (joint.negligible) continue;
       if (route.wythe && !wythes_of(*in.assembly, *in.shell, joint).contains(*route.wythe)) continue;
@@ -242,7 +242,7 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
       for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
         const int row = in.joints->contacts[i];
         if (c.normal_force[row] <= least) continue;
-        const double share = share_at(block, c.point[row]);
+        const double share = share_at(in.shell->beds[bed], block, c.point[row]);
         const double position = std::clamp(layers.position(share), 0.0, 1.0);  // rounding
         point->compressed_from = std::fmin(point->compressed_from, position);  // skips NaN
         point->compressed_to = std::fmax(point->compressed_to, position);

@@ -68,8 +68,6 @@ std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, c
                                  const ContactTable& contacts, const Vec3& up) {
   std::vector<WytheSum> out;
   if (assembly.members.empty() || shell.num_rings() == 0) return out;
-  std::vector<std::map<int, BlockBed>> beds;
-  for (const auto& bed : shell.beds) beds.push_back(blocks_on(bed, {}));
   Sums sums;
   for (const JointWrench& joint : joints.wrenches) {
     const WytheRange wythes = wythes_of(assembly, shell, joint);
@@ -78,9 +76,10 @@ std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, c
     const int ring = ring_above_support(assembly.blocks[joint.upper]);
     Collected& at = sums[{ring, wythes}];
     add_bed(joint, &at);
-    const auto block = beds[ring].find(joint.upper);
-    if (!joint.negligible && block != beds[ring].end())
-      add_bearing(joint, joints, contacts, block->second, &at.bearing);
+    const std::vector<BlockBed>& blocks = shell.blocks[ring];
+    const auto block = std::ranges::lower_bound(blocks, joint.upper, {}, &BlockBed::block);
+    if (!joint.negligible && block != blocks.end() && block->block == joint.upper)
+      add_bearing(joint, joints, contacts, shell.beds[ring], *block, &at.bearing);
   }
   std::map<int, double> totals;  // N, by ring
   for (auto& [key, at] : sums) {

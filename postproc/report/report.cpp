@@ -182,9 +182,9 @@ std::string tables_html(const std::vector<Table>& tables, bool equilibrium) {
   for (const Table& table : tables) {
     if (!equilibrium && interprets(table)) continue;
     const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
-    if (table.rows.size() > kMaxRows) {
-      out += fmt::format("<p>{}: {} in {}.</p>\n", markup_text(table.title),
-                         counted(table.rows.size(), "row"), link);
+    if (table.num_rows() > kMaxRows) {
+      out += fmt::format("<p>{}: {} in {}.</p>\n", markup_text(table.title), counted(table.num_rows(), "row"),
+                         link);
       continue;
     }
     out += fmt::format("<details><summary>{}</summary>\n{}<p>Full precision: {}.</p></details>\n",

@@ -104,10 +104,12 @@ std::vector<MeshArray> mesh_arrays(const Columns<Row>& columns, const Rows& rows
     MeshArray& array = arrays.emplace_back(MeshArray{key, column.is_vector ? 3 : 1, {}});
     if (column.is_real) {
       std::vector<double> numbers;
+      numbers.reserve(rows.size() * static_cast<size_t>(array.components));
       for (const Row& row : rows) append_reals(column.value(row), &numbers);
       array.values = std::move(numbers);
     } else {
       std::vector<std::int32_t> numbers;
+      numbers.reserve(rows.size());
       for (const Row& row : rows) numbers.push_back(to_int(column.value(row)));
       array.values = std::move(numbers);
     }

@@ -30,10 +30,9 @@ Vec3 drawn_force(const JointWrench& joint) {
 
 }  // namespace
 
-DisplacedBlocks::DisplacedBlocks(const Evaluation& evaluation)
-    : evaluation_(evaluation), split_(evaluation.assembly) {
+DisplacedBlocks::DisplacedBlocks(const Evaluation& evaluation) : evaluation_(evaluation) {
   const Assembly& assembly = evaluation.assembly;
-  split_.vertices.clear();
+  Assembly split = assembly;
   std::map<int, int> new_id;  // of the current block's vertices
   int block = -1;
   for (const Part& part : assembly.parts) {
@@ -43,33 +42,35 @@ DisplacedBlocks::DisplacedBlocks(const Evaluation& evaluation)
     const int end = assembly.face_vertex_start[part.face_start + part.num_faces];
     for (int i = start; i < end; ++i) {
       const int old_id = assembly.face_vertices[i];
-      const auto [entry, is_new] = new_id.try_emplace(old_id, static_cast<int>(split_.vertices.size()));
+      const auto [entry, is_new] = new_id.try_emplace(old_id, static_cast<int>(vertices_.size()));
       if (is_new) {
-        split_.vertices.push_back(assembly.vertices[old_id]);
+        vertices_.push_back(assembly.vertices[old_id]);
         vertex_block_.push_back(block);
       }
-      split_.face_vertices[i] = entry->second;
+      split.face_vertices[i] = entry->second;
     }
   }
-  add_part_cells(split_, &cells_);
+  add_part_cells(split, &mesh_);
 }
 
-Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
+Mesh& DisplacedBlocks::at(const FrameEvaluation& e) {
   const Assembly& assembly = evaluation_.assembly;
-  Mesh mesh = cells_;
+  mesh_.points.clear();
+  mesh_.points.reserve(3 * vertices_.size());
   MeshDoubles displacement;
-  displacement.reserve(3 * split_.vertices.size());
+  displacement.reserve(3 * vertices_.size());
   std::vector<Mat3> rotation;
   for (const Eigen::Vector4d& q : e.frame.blocks.quaternion_wxyz)
     rotation.push_back(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix());
-  for (size_t v = 0; v < split_.vertices.size(); ++v) {
+  for (size_t v = 0; v < vertices_.size(); ++v) {
     const int b = vertex_block_[v];
     const Vec3 moved =
-        e.frame.blocks.position[b] + rotation[b] * (split_.vertices[v] - assembly.blocks[b].centroid);
-    add_point(&mesh, moved);
-    append(moved - split_.vertices[v], &displacement);
+        e.frame.blocks.position[b] + rotation[b] * (vertices_[v] - assembly.blocks[b].centroid);
+    add_point(&mesh_, moved);
+    append(moved - vertices_[v], &displacement);
   }
-  mesh.point_data = {{"displacement_m", 3, std::move(displacement)}};
+  mesh_.point_data.clear();
+  mesh_.point_data.push_back({"displacement_m", 3, std::move(displacement)});
 
   const std::vector<BlockRow> blocks = block_rows(evaluation_, e);
   std::vector<BlockRow> parts;
@@ -78,9 +79,9 @@ Mesh DisplacedBlocks::at(const FrameEvaluation& e) const {
     parts.push_back(blocks[part.block]);
     parts.back().ring = part.ring;
   }
-  mesh.cell_data = mesh_arrays(block_columns(), parts, kBlockMeshKeys);
-  mesh.field_data = {{"time_s", 1, MeshDoubles{e.frame.time}}};
-  return mesh;
+  mesh_.cell_data = mesh_arrays(block_columns(), parts, kBlockMeshKeys);
+  mesh_.field_data = {{"time_s", 1, MeshDoubles{e.frame.time}}};
+  return mesh_;
 }
 
 double round_down(double value) {

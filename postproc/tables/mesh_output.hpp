@@ -10,13 +10,14 @@ namespace cupola {
 class DisplacedBlocks {
  public:
   explicit DisplacedBlocks(const Evaluation& evaluation);
-  Mesh at(const FrameEvaluation& frame) const;
+  /// The mesh, until the next call.
+  Mesh& at(const FrameEvaluation& frame);
 
  private:
   const Evaluation& evaluation_;
-  Assembly split_;                 // the assembly, with vertices that no two blocks share
+  std::vector<Vec3> vertices_;     // as built; no two blocks share one
   std::vector<int> vertex_block_;  // block of each vertex
-  Mesh cells_;
+  Mesh mesh_;
 };
 
 /// Largest number of the form 1, 2 or 5 times a power of ten that does not exceed `value` > 0.

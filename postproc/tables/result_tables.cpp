@@ -39,13 +39,20 @@ Table with_member_names(const Assembly& assembly, Table table) {
   return table;
 }
 
-/// Gives the columns of forces the floor of the frame.
-void set_floors(const Evaluation& e, Table* table) {
-  const double force = e.last.joints.floor.force, size = block_size(e.assembly);
+/// Gives the columns of forces the floor of the frame, and those of moments that times the size of a block.
+void set_floors(double force, double size, Table* table) {
   for (Table::Column& column : table->columns) {
     if (column.unit == "N") column.floor = force;
     if (column.unit == "N m") column.floor = force * size;
   }
+}
+
+/// Calls a function with the rows, piece by piece; once if there are none.
+template <class Row, class Take>
+void in_pieces(const std::vector<Row>& rows, const Take& take) {
+  constexpr size_t kPiece = 1000;
+  for (size_t start = 0; start == 0 || start < rows.size(); start += kPiece)
+    take(std::span(rows).subspan(start, std::min(kPiece, rows.size() - start)));
 }
 
 }  // namespace
@@ -72,15 +79,15 @@ Table wythe_table(const Evaluation& e) {
                     wythe_rows(e));
 }
 
-Table joint_table(const Evaluation& e) {
+Table joint_table(const Evaluation& e, std::span<const JointWrench> joints) {
   return with_block_names(
       e.assembly, make_table("joints", "Joints: wrench on the second block about the centre of pressure",
-                             joint_columns(), e.last.joints.wrenches));
+                             joint_columns(), joints));
 }
 
-Table block_table(const Evaluation& e) {
+Table block_table(const Evaluation& e, std::span<const BlockRow> blocks) {
   Table table = make_table("blocks", "Blocks: wrench from the ring below, shell forces, joints, displacement",
-                           block_columns(), block_rows(e, e.last));
+                           block_columns(), blocks);
   return with_block_names(e.assembly, with_member_names(e.assembly, std::move(table)));
 }
 
@@ -126,34 +133,38 @@ Table plane_table(const Evaluation& e, const PlaneCut& cut) {
                                                  plane_columns(), plane_joints(e, cut)));
 }
 
-std::vector<Table> result_tables(const Evaluation& e) {
-  std::vector<Table> tables;
-  if (!e.summary.ranges.empty()) tables.push_back(range_table(e.summary.ranges));
-  if (!e.rings.empty()) tables.push_back(ring_table(e));
+void visit_tables(const Evaluation& e, const std::function<void(Table)>& take) {
+  const double floor = e.last.joints.floor.force, size = block_size(e.assembly);
+  const auto add = [&](Table table) {
+    set_floors(floor, size, &table);
+    take(std::move(table));
+  };
+  if (!e.summary.ranges.empty()) add(range_table(e.summary.ranges));
+  if (!e.rings.empty()) add(ring_table(e));
   if (!e.reactions.empty())
-    tables.push_back(make_table("reactions", "Forces on the supports", reaction_columns(), e.reactions));
-  if (!e.cracks.empty()) tables.push_back(crack_table(e));
-  if (const auto observed = crack_agreement(e)) tables.push_back(observed_table(*observed));
-  if (!e.members.empty()) tables.push_back(member_table(e));
-  if (!e.wythes.empty()) tables.push_back(wythe_table(e));
+    add(make_table("reactions", "Forces on the supports", reaction_columns(), e.reactions));
+  if (!e.cracks.empty()) add(crack_table(e));
+  if (const auto observed = crack_agreement(e)) add(observed_table(*observed));
+  if (!e.members.empty()) add(member_table(e));
+  if (!e.wythes.empty()) add(wythe_table(e));
   for (const MeridianEvaluation& m : e.meridians) {
-    tables.push_back(thrust_table(m.thrust));
+    add(thrust_table(m.thrust));
     for (const ThrustLine& line : m.wythes) {
-      tables.push_back(thrust_table(line));
-      tables.back().title = fmt::format("Thrust line of the meridian {}, wythe {}", m.thrust.name,
-                                        e.assembly.members[*line.wythe]);
+      Table table = thrust_table(line);
+      table.title = fmt::format("Thrust line of the meridian {}, wythe {}", m.thrust.name,
+                                e.assembly.members[*line.wythe]);
+      add(std::move(table));
     }
-    if (!m.hoop.empty()) tables.push_back(hoop_table(m));
+    if (!m.hoop.empty()) add(hoop_table(m));
   }
-  if (!e.chains.empty()) tables.push_back(chain_table(e));
-  if (e.last.frame.ties.size() > 0) tables.push_back(tie_table(e));
-  for (const SectionEvaluation& section : e.sections) tables.push_back(section_table(e, section));
-  for (const PlaneCut& cut : e.planes) tables.push_back(plane_table(e, cut));
-  for (const ShellMap& map : shell_maps(e)) tables.push_back(shell_table(map));
-  tables.push_back(joint_table(e));
-  tables.push_back(block_table(e));
-  for (Table& table : tables) set_floors(e, &table);
-  return tables;
+  if (!e.chains.empty()) add(chain_table(e));
+  if (e.last.frame.ties.size() > 0) add(tie_table(e));
+  for (const SectionEvaluation& section : e.sections) add(section_table(e, section));
+  for (const PlaneCut& cut : e.planes) add(plane_table(e, cut));
+  for (const ShellMap& map : shell_maps(e))
+    in_pieces(map.boxes, [&](auto boxes) { add(shell_table(map, boxes)); });
+  in_pieces(e.last.joints.wrenches, [&](auto joints) { add(joint_table(e, joints)); });
+  in_pieces(block_rows(e, e.last), [&](auto blocks) { add(block_table(e, blocks)); });
 }
 
 }  // namespace cupola

@@ -124,11 +124,11 @@ std::vector<ShellMap> shell_maps(const Evaluation& e) {
   return maps;
 }
 
-Table shell_table(const ShellMap& map) {
+Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes) {
   return make_table(fmt::format("{}{}", map.table_name(), map.suffix()),
                     fmt::format("Blocks of the unrolled {}, as the maps show them",
                                 map.wythe.empty() ? "shell" : fmt::format("wythe {}", map.wythe)),
-                    shell_columns(), map.boxes);
+                    shell_columns(), boxes);
 }
 
 std::optional<ShellMap> read_shell_map(const std::string& post_folder) {

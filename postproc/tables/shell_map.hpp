@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 
 /// shell.csv, or shell_x.csv for a shell without azimuths, shell_y.csv for an arch; of a wythe with its name
 /// behind.
-Table shell_table(const ShellMap& map);
+Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes);
 
 /// The map in the folder of a run; none if it has no rings, no equilibrium, or wythes.
 std::optional<ShellMap> read_shell_map(const std::string& post_folder);

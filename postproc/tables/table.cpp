@@ -1,9 +1,11 @@
 #include "postproc/tables/table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include "assembly/files/csv_text.hpp"
@@ -11,14 +13,20 @@
 namespace cupola {
 namespace {
 
-void append_csv(const Table::Cell& cell, fmt::memory_buffer* out) {
+void append_csv(const Table::Cell& cell, std::string* out) {
+  std::array<char, 32> digits{};  // a double takes at most 24
   if (const auto* number = std::get_if<double>(&cell)) {
-    if (!std::isnan(*number)) fmt::format_to(std::back_inserter(*out), "{}", *number);
+    if (!std::isnan(*number))
+      out->append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}"), *number));
   } else if (const auto* count = std::get_if<int>(&cell)) {
-    fmt::format_to(std::back_inserter(*out), "{}", *count);
+    out->append(digits.data(), fmt::format_to(digits.data(), FMT_COMPILE("{}"), *count));
   } else {
     out->append(csv_text(std::get<std::string>(cell)));
   }
+}
+
+char end_of(size_t i, size_t n) {
+  return i + 1 == n ? '\n' : ',';
 }
 
 /// With what LaTeX would interpret escaped.
@@ -40,17 +48,19 @@ std::string latex_text(const std::string& text) {
 }  // namespace
 
 std::string to_csv(const Table& table) {
-  fmt::memory_buffer out;
-  const auto end_of = [](size_t i, size_t n) { return i + 1 == n ? '\n' : ','; };
+  std::string text;
   for (size_t i = 0; i < table.columns.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{}{}", csv_text(table.columns[i].key),
-                   end_of(i, table.columns.size()));
+    text.append(csv_text(table.columns[i].key)).push_back(end_of(i, table.columns.size()));
+  append_csv_rows(table, &text);
+  return text;
+}
+
+void append_csv_rows(const Table& table, std::string* text) {
   for (const auto& row : table.rows)
     for (size_t i = 0; i < row.size(); ++i) {
-      append_csv(row[i], &out);
-      out.push_back(end_of(i, row.size()));
+      append_csv(row[i], text);
+      text->push_back(end_of(i, row.size()));
     }
-  return fmt::to_string(out);
 }
 
 std::string to_latex(const Table& table) {

@@ -20,11 +20,16 @@ struct Table {
   std::string title;  ///< a sentence
   std::vector<Column> columns;
   std::vector<std::vector<Cell>> rows;
+  size_t rows_elsewhere = 0;  ///< number of further rows, which only the CSV file holds
+
+  size_t num_rows() const { return rows.size() + rows_elsewhere; }
 };
 
 /// Header line of keys, then the rows. Numbers have all digits; undefined ones (NaN) are empty cells. Texts
 /// are quoted where needed.
 std::string to_csv(const Table& table);
+/// Appends the rows, without the header.
+void append_csv_rows(const Table& table, std::string* text);
 
 /// A tabular environment of LaTeX: headings with units, cells as to_display.
 std::string to_latex(const Table& table);

@@ -220,7 +220,8 @@ Json add_film(const Evaluation& e, const Film& film, const Lattice& lattice, Pac
   const int back = 3 * static_cast<int>(e.assembly.blocks.size());
   arrays->add_multiples("film.shift", shifts, fine_step(lattice.step, farthest), back);
   // A point of a block moves by less than half a step of the lattice where the block turns by a step.
-  const double size = (box_of(e.assembly).high - box_of(e.assembly).low).norm();
+  const Box box = box_of(e.assembly);
+  const double size = (box.high - box.low).norm();
   arrays->add_multiples("film.turn", turns, fine_step(lattice.step / size, widest), back);
   return {{"kind", kNames[static_cast<size_t>(film.kind())]},
           {"frames", std::max(1, film.num_frames())},

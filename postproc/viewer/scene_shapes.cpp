@@ -1,7 +1,8 @@
 #include "postproc/viewer/scene_shapes.hpp"
 
 #include <algorithm>
-#include <map>
+#include <span>
+#include <utility>
 
 #include "postproc/tables/mesh_output.hpp"
 
@@ -10,14 +11,21 @@ namespace {
 
 /// Faces with the same vertices are the two sides of a joint. Returns true for each of them.
 std::vector<bool> faces_with_partner(const Assembly& assembly) {
-  std::map<std::vector<int>, int> first_with;
-  std::vector<bool> has_partner(static_cast<size_t>(assembly.num_faces()), false);
+  std::vector<int> sorted = assembly.face_vertices;
+  const auto vertices_of = [&](int f) {
+    const auto begin = sorted.begin() + assembly.face_vertex_start[f];
+    return std::span(begin, sorted.begin() + assembly.face_vertex_start[f + 1]);
+  };
+  // The faces with the same first vertex are chained.
+  std::vector<int> last_with(assembly.vertices.size(), -1);
+  std::vector<int> previous(static_cast<size_t>(assembly.num_faces()), -1);
+  std::vector<bool> has_partner(previous.size(), false);
   for (int f = 0; f < assembly.num_faces(); ++f) {
-    const auto face = assembly.face(f);
-    std::vector<int> ids(face.begin(), face.end());
-    std::sort(ids.begin(), ids.end());
-    const auto [known, is_new] = first_with.try_emplace(std::move(ids), f);
-    if (!is_new) has_partner[f] = has_partner[known->second] = true;
+    const std::span<int> ids = vertices_of(f);
+    std::ranges::sort(ids);
+    for (int g = last_with[ids.front()]; g >= 0; g = previous[g])
+      if (std::ranges::equal(ids, vertices_of(g))) has_partner[f] = has_partner[g] = true;
+    previous[f] = std::exchange(last_with[ids.front()], f);
   }
   return has_partner;
 }

@@ -101,7 +101,7 @@ TEST(Wythes, HeadersShareTheLoadOfALeaf) {
   // One map per leaf; a header is in both.
   const std::vector<ShellMap> maps = shell_maps(e);
   ASSERT_EQ(maps.size(), 2u);
-  EXPECT_EQ(shell_table(maps[1]).name, "shell_x_front");
+  EXPECT_EQ(shell_table(maps[1], {}).name, "shell_x_front");
   for (const ShellMap& map : maps)
     EXPECT_EQ(std::ranges::count(map.boxes, 1, &ShellBox::ring), 10) << "headers";
 }
@@ -195,7 +195,7 @@ TEST(Wythes, TheLinesAndSumsOfTwoShellsAddUpToTheWhole) {
        {"$cut_0 <<", "$cut_3 <<", "$wythe_0 <<", "$wythe_1_graphs <<", "title 'outer shell'"})
     EXPECT_NE(figure.commands.find(data), std::string::npos) << data;
   std::vector<std::string> names;
-  for (const Table& table : result_tables(e)) names.push_back(table.name);
+  visit_tables(e, [&](const Table& table) { names.push_back(table.name); });
   for (const char* name :
        {"wythes", "members", "thrust_rib", "thrust_rib_inner", "thrust_rib_cavity", "thrust_rib_outer_shell",
         "shell_inner", "shell_cavity", "shell_outer_shell", "section_5m"})

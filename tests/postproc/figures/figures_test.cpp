@@ -112,7 +112,7 @@ TEST(ShellMaps, TensionHasDots) {
     MapScales scales;
     scales.include(map);
     const std::string commands = force_map(map, scales).commands;
-    return std::pair(commands.find("$hoop using ($7 < 0 ? $1 : NaN):2 with points") != std::string::npos,
+    return std::pair(commands.find("$hoop_pulls using 1:2 with points") != std::string::npos,
                      commands.find("title 'tension'") != std::string::npos);
   };
   EXPECT_EQ(dots(-1e3), std::pair(true, true));
@@ -146,7 +146,7 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
                                        test::fresh_folder("results"));
   const ShellMap map = shell_maps(e).front();
-  EXPECT_EQ(shell_table(map).name, "shell_y");
+  EXPECT_EQ(shell_table(map, {}).name, "shell_y");
   ASSERT_EQ(map.boxes.size(), 3u);
   for (const ShellBox& box : map.boxes) EXPECT_NEAR(box.to - box.from, 1.2, 1e-12);
   EXPECT_NE(utilisation_map(map, {}).title.find("over the arch"), std::string::npos);
@@ -162,7 +162,7 @@ TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   const ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
   ASSERT_EQ(map.boxes.size(), 3u);
   const std::string folder = test::fresh_folder("post");
-  write_text_atomically(folder + "/shell_x.csv", to_csv(shell_table(map)));
+  write_text_atomically(folder + "/shell_x.csv", to_csv(shell_table(map, map.boxes)));
   const auto read = read_shell_map(folder);
   ASSERT_TRUE(read);
   EXPECT_FALSE(read->vault);

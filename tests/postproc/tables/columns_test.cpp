@@ -49,7 +49,7 @@ TEST(Columns, AVectorHasThreeColumnsInATableAndOneArrayInAMesh) {
 
 TEST(Columns, TablesAndMeshesHoldTheSameValues) {
   const Evaluation e = test::column_evaluation(0.7, 0.3, 2.0);
-  const Table table = joint_table(e);
+  const Table table = joint_table(e, e.last.joints.wrenches);
   const Mesh mesh = joints_mesh(e);
   const auto forces = mesh.array<double>(mesh.point_data, "force_N", 3);
   const auto kinds = mesh.array<std::int32_t>(mesh.point_data, "kind", 1);
