@@ -14,14 +14,17 @@
 namespace cupola {
 namespace {
 
-constexpr double kLonger = 30.0;  // the usual first step suits structures that settle under all their weight
+// Nearby the first solve is to be the last. The usual first step suits structures that settle under all their
+// weight.
+constexpr double kLonger = 30.0;
 
 }  // namespace
 
 ComingToRest::ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
                            const ContactMemories& memories, const StaticOptions& options, Start from)
-    : ProximalPoint(model, start, contacts, memories, options,
-                    {40, 1e-4, 1e-3, from == Start::nearby ? kLonger : 1.0}) {}
+    : ProximalPoint(
+          model, start, contacts, memories, options,
+          from == Start::nearby ? Pace{40, options.tolerance, 1e-3, kLonger} : Pace{40, 1e-4, 1e-3}) {}
 
 bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
   const ContactProblem& problem = step_.problem;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 #include <utility>
 
@@ -18,29 +19,64 @@ void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, 
 
 namespace cupola {
 
-UnsymmetricBlockMatrix assemble_jacobian(const ContactProblem& problem, const ContactGraph& graph,
-                                         const std::vector<Mat3>& G) {
-  CUPOLA_ASSERT(std::ssize(G) == problem.num_contacts());
-  const std::vector<Mat6> zeros(graph.pattern.num_pairs(), Mat6::Zero());
-  UnsymmetricBlockMatrix J{problem.M, zeros, zeros};
-  for (int i = 0; i < problem.num_contacts(); ++i) {
-    if (G[i].isZero(0.0)) continue;
-    const int a = problem.block_a[i], b = problem.block_b[i], pair = graph.pair_of_contact[i];
-    const Mat63 &D_a = problem.D_a[i], &D_b = problem.D_b[i];
-    Mat63 D_a_G, D_b_G;
-    if (a != ContactProblem::kFixed) {
-      D_a_G.noalias() = D_a * G[i];
-      J.diagonal[a].noalias() += D_a_G * D_a.transpose();
+ContactJacobian::ContactJacobian(const ContactProblem& problem, const ContactGraph& graph)
+    : problem_(problem),
+      graph_(graph),
+      G_(problem.num_contacts(), Mat3::Zero()),
+      J_{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero()), {}} {
+  J_.upper = J_.lower;
+}
+
+/// Marks the 6x6 blocks that change, sets them to their parts without contacts, and keeps G.
+void ContactJacobian::mark_changed(const std::vector<Mat3>& G) {
+  block_changes_.assign(problem_.num_blocks(), 0);
+  pair_changes_.assign(graph_.pattern.num_pairs(), 0);
+  for (int i = 0; i < problem_.num_contacts(); ++i) {
+    if (std::memcmp(G[i].data(), G_[i].data(), sizeof(Mat3)) == 0) continue;
+    G_[i] = G[i];
+    for (const int block : {problem_.block_a[i], problem_.block_b[i]}) {
+      if (block == ContactProblem::kFixed) continue;
+      block_changes_[block] = 1;
+      J_.diagonal[block] = problem_.M[block];
     }
-    if (b != ContactProblem::kFixed) {
-      D_b_G.noalias() = D_b * G[i];
-      J.diagonal[b].noalias() += D_b_G * D_b.transpose();
-    }
+    const int pair = graph_.pair_of_contact[i];
     if (pair < 0) continue;
-    (a < b ? J.upper : J.lower)[pair].noalias() += D_a_G * D_b.transpose();
-    (a < b ? J.lower : J.upper)[pair].noalias() += D_b_G * D_a.transpose();
+    pair_changes_[pair] = 1;
+    J_.lower[pair].setZero();
+    J_.upper[pair].setZero();
   }
-  return J;
+}
+
+void ContactJacobian::sum_marked() {
+  const auto changes = [&](int block) {
+    return block != ContactProblem::kFixed && block_changes_[block] != 0;
+  };
+  for (int i = 0; i < problem_.num_contacts(); ++i) {
+    const int a = problem_.block_a[i], b = problem_.block_b[i], pair = graph_.pair_of_contact[i];
+    const bool pair_changes = pair >= 0 && pair_changes_[pair] != 0;
+    if (!changes(a) && !changes(b)) continue;  // nor does the pair
+    if (G_[i].isZero(0.0)) continue;
+    const Mat63 &D_a = problem_.D_a[i], &D_b = problem_.D_b[i];
+    Mat63 D_a_G, D_b_G;
+    if (changes(a)) {
+      D_a_G.noalias() = D_a * G_[i];
+      J_.diagonal[a].noalias() += D_a_G * D_a.transpose();
+    }
+    if (changes(b)) {
+      D_b_G.noalias() = D_b * G_[i];
+      J_.diagonal[b].noalias() += D_b_G * D_b.transpose();
+    }
+    if (!pair_changes) continue;  // both blocks change with it
+    (a < b ? J_.upper : J_.lower)[pair].noalias() += D_a_G * D_b.transpose();
+    (a < b ? J_.lower : J_.upper)[pair].noalias() += D_b_G * D_a.transpose();
+  }
+}
+
+const UnsymmetricBlockMatrix& ContactJacobian::at(const std::vector<Mat3>& G) {
+  CUPOLA_ASSERT(std::ssize(G) == problem_.num_contacts());
+  mark_changed(G);
+  sum_marked();
+  return J_;
 }
 
 VecX multiply(const BlockPattern& pattern, const UnsymmetricBlockMatrix& matrix, const VecX& x) {

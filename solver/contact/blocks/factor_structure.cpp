@@ -4,6 +4,7 @@
 #include <mutex>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <cholmod.h>
@@ -182,10 +183,7 @@ void set_subtrees(const std::vector<int>& panel_of_column, FactorStructure* f) {
                            [&](const FactorStructure::Subtree& tree) { return work[tree.last - 1]; });
 }
 
-}  // namespace
-
-FactorStructure analyze(const BlockPattern& pattern) {
-  CUPOLA_ASSERT(pattern.num_blocks() >= 0 && pattern.column_start.back() == pattern.num_pairs());
+FactorStructure analyze_anew(const BlockPattern& pattern) {
   FactorStructure f;
   {
     const Analysis analysis(pattern);
@@ -197,6 +195,23 @@ FactorStructure analyze(const BlockPattern& pattern) {
   set_updates(panel_of_column, &f);
   set_subtrees(panel_of_column, &f);
   return f;
+}
+
+}  // namespace
+
+FactorStructure analyze(const BlockPattern& pattern) {
+  CUPOLA_ASSERT(pattern.num_blocks() >= 0 && pattern.column_start.back() == pattern.num_pairs());
+  constexpr int kMostBlocks = 10000;  // large structures take much memory
+  struct Analyzed {
+    BlockPattern pattern;
+    FactorStructure structure;
+  };
+  thread_local std::optional<Analyzed> last;
+  if (last && last->pattern == pattern) return last->structure;
+  last.reset();
+  FactorStructure structure = analyze_anew(pattern);
+  if (pattern.num_blocks() <= kMostBlocks) last = Analyzed{pattern, structure};
+  return structure;
 }
 
 }  // namespace cupola

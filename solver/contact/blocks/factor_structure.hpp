@@ -53,7 +53,8 @@ struct FactorStructure {
 };
 
 /// Orders the blocks with METIS and finds the panels (CHOLMOD's analysis), their updates, and subtrees of at
-/// most a sixteenth of the work. Throws std::bad_alloc if memory runs out.
+/// most a sixteenth of the work. The last result of each thread is kept, unless it is large: the certificate
+/// of a solution has the pattern of its solve. Throws std::bad_alloc if memory runs out.
 FactorStructure analyze(const BlockPattern& pattern);
 
 }  // namespace cupola

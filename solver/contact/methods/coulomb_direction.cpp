@@ -17,8 +17,9 @@ std::vector<Mat3> uncoupled(std::vector<Mat3> G) {
 
 }  // namespace
 
-bool CoulombDirection::solve_by_gmres(const BlockPattern& pattern, const UnsymmetricBlockMatrix& J,
-                                      const VecX& F, double forcing, VecX* d, SolveSummary* summary) {
+bool CoulombDirection::solve_by_gmres(const UnsymmetricBlockMatrix& J, const VecX& F, double forcing, VecX* d,
+                                      SolveSummary* summary) {
+  const BlockPattern& pattern = graph_.pattern;
   const bool is_symmetric = last_ == Factor::symmetric;
   if (last_ == Factor::none || (is_symmetric ? symmetric_.pattern() : unsymmetric_.pattern()) != pattern)
     return false;
@@ -32,32 +33,29 @@ bool CoulombDirection::solve_by_gmres(const BlockPattern& pattern, const Unsymme
   return iterations > 0;
 }
 
-bool CoulombDirection::factorize_symmetric(const ContactProblem& problem, const ContactGraph& graph,
-                                           const std::vector<Mat3>& G, SolveSummary* summary) {
+bool CoulombDirection::factorize_symmetric(const std::vector<Mat3>& G, SolveSummary* summary) {
   ++summary->factorizations;
-  const bool succeeds = symmetric_.factorize(graph.pattern, assemble_hessian(problem, graph, G));
+  const bool succeeds = symmetric_.factorize(graph_.pattern, assemble_hessian(problem_, graph_, G));
   last_ = succeeds ? Factor::symmetric : Factor::none;
   return succeeds;
 }
 
-bool CoulombDirection::solve_symmetric(const ContactProblem& problem, const ContactGraph& graph,
-                                       const std::vector<Mat3>& G, const VecX& F, VecX* d,
+bool CoulombDirection::solve_symmetric(const std::vector<Mat3>& G, const VecX& F, VecX* d,
                                        SolveSummary* summary) {
-  if (!factorize_symmetric(problem, graph, G, summary)) return false;
+  if (!factorize_symmetric(G, summary)) return false;
   *d = symmetric_.solve(F);
   return d->allFinite();
 }
 
-bool CoulombDirection::solve(const ContactProblem& problem, const ContactGraph& graph,
-                             const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing,
+bool CoulombDirection::solve(const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing,
                              VecX* d, SolveSummary* summary) {
-  const UnsymmetricBlockMatrix J = assemble_jacobian(problem, graph, G);
-  if (forcing && solve_by_gmres(graph.pattern, J, F, *forcing, d, summary)) return true;
-  if (forcing && last_ == Factor::symmetric && factorize_symmetric(problem, graph, uncoupled(G), summary) &&
-      solve_by_gmres(graph.pattern, J, F, *forcing, d, summary))
+  const UnsymmetricBlockMatrix& J = jacobian_.at(G);
+  if (forcing && solve_by_gmres(J, F, *forcing, d, summary)) return true;
+  if (forcing && last_ == Factor::symmetric && factorize_symmetric(uncoupled(G), summary) &&
+      solve_by_gmres(J, F, *forcing, d, summary))
     return true;
   ++summary->factorizations;
-  const bool succeeds = unsymmetric_.factorize(graph.pattern, J);
+  const bool succeeds = unsymmetric_.factorize(graph_.pattern, J);
   last_ = succeeds ? Factor::unsymmetric : Factor::none;
   if (!succeeds) return false;
   *d = unsymmetric_.solve(F);

@@ -9,34 +9,38 @@
 
 namespace cupola {
 
-/// Solves J d = F, J = I + D G D^T, for a whitened problem (M = I) and stiffnesses G that are unsymmetric
-/// where contacts slide.
+/// Solves J d = F, J = I + D G D^T, for a whitened problem (M = I) and a sequence of stiffnesses G that are
+/// unsymmetric where contacts slide.
 class CoulombDirection {
  public:
   /// Begins with the factor of `lu`, if it has one, and leaves its last LU factor there.
-  explicit CoulombDirection(BlockLu* lu)
-      : unsymmetric_(*lu), last_(lu->has_factor() ? Factor::unsymmetric : Factor::none) {}
+  CoulombDirection(const ContactProblem& problem, const ContactGraph& graph, BlockLu* lu)
+      : problem_(problem),
+        graph_(graph),
+        jacobian_(problem, graph),
+        unsymmetric_(*lu),
+        last_(lu->has_factor() ? Factor::unsymmetric : Factor::none) {}
 
   /// d with |J d - F| <= forcing |F| by GMRES, preconditioned with the last factor. Where it fails, a new
   /// factor replaces the last: a Cholesky factor after a Cholesky factor, if GMRES succeeds with it,
   /// otherwise an LU factor, which needs no GMRES. Without forcing always the latter. False if J is singular.
-  [[nodiscard]] bool solve(const ContactProblem& problem, const ContactGraph& graph,
-                           const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing, VecX* d,
+  [[nodiscard]] bool solve(const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing, VecX* d,
                            SolveSummary* summary);
 
   /// The same for symmetric G, by a new Cholesky factor: half the time of an LU factor, and a third of the
   /// time per iteration of GMRES, in single precision.
-  [[nodiscard]] bool solve_symmetric(const ContactProblem& problem, const ContactGraph& graph,
-                                     const std::vector<Mat3>& G, const VecX& F, VecX* d,
+  [[nodiscard]] bool solve_symmetric(const std::vector<Mat3>& G, const VecX& F, VecX* d,
                                      SolveSummary* summary);
 
  private:
   enum class Factor { none, symmetric, unsymmetric };
-  bool solve_by_gmres(const BlockPattern& pattern, const UnsymmetricBlockMatrix& J, const VecX& F,
-                      double forcing, VecX* d, SolveSummary* summary);
-  bool factorize_symmetric(const ContactProblem& problem, const ContactGraph& graph,
-                           const std::vector<Mat3>& G, SolveSummary* summary);
+  bool solve_by_gmres(const UnsymmetricBlockMatrix& J, const VecX& F, double forcing, VecX* d,
+                      SolveSummary* summary);
+  bool factorize_symmetric(const std::vector<Mat3>& G, SolveSummary* summary);
 
+  const ContactProblem& problem_;
+  const ContactGraph& graph_;
+  ContactJacobian jacobian_;
   BlockCholesky symmetric_;
   BlockLu& unsymmetric_;
   Factor last_;

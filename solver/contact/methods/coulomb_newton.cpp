@@ -26,9 +26,8 @@ std::optional<VecX> sticking_solution(const CoulombSubproblem& sub, bool rigid, 
   const StickingSystem system = sticking_system(sub);
   VecX w;
   SolveSummary uncounted;
-  const bool exists =
-      rigid ? direction->solve_symmetric(sub.p, sub.graph, system.G, system.rhs, &w, summary)
-            : direction->solve(sub.p, sub.graph, system.G, system.rhs, std::nullopt, &w, &uncounted);
+  const bool exists = rigid ? direction->solve_symmetric(system.G, system.rhs, &w, summary)
+                            : direction->solve(system.G, system.rhs, std::nullopt, &w, &uncounted);
   return exists ? std::optional(std::move(w)) : std::nullopt;
 }
 
@@ -114,13 +113,9 @@ class CoulombSolve {
   SolveSummary summary_;
   const WhitenedProblem white_ = whiten(problem_);
   const ContactGraph graph_ = contact_graph(problem_);
-  CoulombSubproblem sub_{white_.problem,
-                         graph_,
-                         options_.law.dilatancy,
-                         root_mean_mass(problem_),
-                         VecX::Zero(problem_.num_contacts()),
-                         VecX::Zero(problem_.b.size())};
-  CoulombDirection direction_{kept_.lu};
+  CoulombSubproblem sub_{white_.problem, options_.law.dilatancy, root_mean_mass(problem_),
+                         VecX::Zero(problem_.num_contacts()), VecX::Zero(problem_.b.size())};
+  CoulombDirection direction_{white_.problem, graph_, kept_.lu};
   BestSolution best_{problem_, white_, options_, solution_};
   const bool rigid_ = first_rigid_contact(problem_).has_value();
   const double scale_ = sub_.root_mass * options_.reference_speed;

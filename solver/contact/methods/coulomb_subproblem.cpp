@@ -100,7 +100,7 @@ bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& ac
     if (accuracy.inexact_directions)
       forcing = std::clamp(0.3 * accuracy.tolerance / largest_block_norm(F), 1e-2, 0.1);
     VecX d;
-    if (!direction->solve(sub.p, sub.graph, sub.stiffnesses(point->y), F, forcing, &d, summary)) return false;
+    if (!direction->solve(sub.stiffnesses(point->y), F, forcing, &d, summary)) return false;
     CoulombPoint trial;
     double t = 2.0;
     do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "solver/contact/blocks/block_matrix.hpp"
 #include "solver/contact/methods/coulomb_direction.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/solve_options.hpp"
@@ -14,7 +13,6 @@ namespace cupola {
 ///     F(w) = w - v_star - D Gamma(D^T w + b - R centre) = 0,    Gamma of compliance E + R
 struct CoulombSubproblem {
   const ContactProblem& p;
-  const ContactGraph& graph;
   double dilatancy;
   double root_mass;  ///< root_mean_mass() of the given problem, sqrt(kg)
   VecX R;            ///< 1/kg (nc)

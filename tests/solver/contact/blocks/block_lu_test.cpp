@@ -28,11 +28,29 @@ Problem dome_jacobian(int rings, int blocks_per_ring) {
   const VecX values = random_vector(9 * dome.problem.num_contacts());
   for (int i = 0; i < dome.problem.num_contacts(); ++i)
     G[i] = 1e4 * (Mat3::Identity() + 0.3 * Eigen::Map<const Mat3>(values.data() + 9 * i));
-  return {dome.graph.pattern, assemble_jacobian(dome.problem, dome.graph, G)};
+  return {dome.graph.pattern, ContactJacobian(dome.problem, dome.graph).at(G)};
 }
 
 Eigen::MatrixXd dense(const Problem& p) {
   return testing::dense_matrix(p.pattern, p.matrix, [&p](int pair) { return p.matrix.upper[pair]; });
+}
+
+// What is kept from the last matrix does not show in the next, whatever changes between them.
+TEST(ContactJacobian, HasTheSameBitsAfterAnySequence) {
+  const testing::DomeBlocks dome(5, 8);
+  const int nc = dome.problem.num_contacts();
+  ContactJacobian kept(dome.problem, dome.graph);
+  std::vector<Mat3> G(nc, Mat3::Zero());
+  for (const int every : {1, 7, 29, nc + 1, 3}) {
+    const VecX values = random_vector(9 * nc);
+    for (int i = 0; i < nc; i += every)
+      G[i] = i % 2 == 0 ? Mat3(Eigen::Map<const Mat3>(values.data() + 9 * i)) : Mat3(Mat3::Zero());
+    const UnsymmetricBlockMatrix& J = kept.at(G);
+    ContactJacobian anew(dome.problem, dome.graph);
+    EXPECT_EQ(J.diagonal, anew.at(G).diagonal);
+    EXPECT_EQ(J.lower, anew.at(G).lower);
+    EXPECT_EQ(J.upper, anew.at(G).upper);
+  }
 }
 
 // Ten digits, as the condition number of these matrices is 1e4.

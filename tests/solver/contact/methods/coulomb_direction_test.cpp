@@ -27,8 +27,7 @@ System random_system(double friction, unsigned seed) {
   System system{whiten(scenes::dome(shape, 0.01, {friction, 1e-8, 1e-8})).problem, {}, {}, {}};
   const ContactProblem& p = system.problem;
   system.graph = contact_graph(p);
-  const CoulombSubproblem sub{
-      p, system.graph, 0.0, 1.0, VecX::Zero(p.num_contacts()), VecX::Zero(p.b.size())};
+  const CoulombSubproblem sub{p, 0.0, 1.0, VecX::Zero(p.num_contacts()), VecX::Zero(p.b.size())};
   VecX y(p.b.size());
   for (double& value : y) value = normal(random) - 0.5;
   system.G = sub.stiffnesses(y);
@@ -44,8 +43,8 @@ struct Solved {
 Solved solve(const System& s, std::optional<double> forcing, CoulombDirection* direction) {
   Solved solved;
   VecX d;
-  EXPECT_TRUE(direction->solve(s.problem, s.graph, s.G, s.F, forcing, &d, &solved.summary));
-  const UnsymmetricBlockMatrix J = assemble_jacobian(s.problem, s.graph, s.G);
+  EXPECT_TRUE(direction->solve(s.G, s.F, forcing, &d, &solved.summary));
+  const UnsymmetricBlockMatrix J = ContactJacobian(s.problem, s.graph).at(s.G);
   solved.residual = (multiply(s.graph.pattern, J, d) - s.F).norm() / s.F.norm();
   return solved;
 }
@@ -55,7 +54,7 @@ void factorize_sticking(const System& s, CoulombDirection* direction) {
   SolveSummary summary;
   VecX d;
   const std::vector<Mat3> G(s.G.size(), Mat3::Identity());
-  ASSERT_TRUE(direction->solve_symmetric(s.problem, s.graph, G, s.F, &d, &summary));
+  ASSERT_TRUE(direction->solve_symmetric(G, s.F, &d, &summary));
 }
 
 // Up to friction 5 the matrices are far from symmetric, and those of friction 0 are symmetric.
@@ -64,7 +63,7 @@ TEST(CoulombDirection, MeetsItsForcing) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
       const System system = random_system(friction, seed);
       BlockLu lu;
-      CoulombDirection direction(&lu);
+      CoulombDirection direction(system.problem, system.graph, &lu);
       factorize_sticking(system, &direction);
       for (const double forcing : {0.1, 1e-3, 1e-6})
         EXPECT_LE(solve(system, forcing, &direction).residual, 1.01 * forcing) << friction;  // 1 %: rounding
@@ -82,7 +81,7 @@ TEST(CoulombDirection, RenewsFactorsOfTheKindThatServes) {
   System system = random_system(0.4, 1);
   const std::vector<Mat3> sliding = system.G;
   BlockLu lu;
-  CoulombDirection direction(&lu);
+  CoulombDirection direction(system.problem, system.graph, &lu);
   factorize_sticking(system, &direction);
   for (Mat3& G : system.G) G = 1e4 * Mat3::Identity();
   Solved solved = solve(system, 1e-6, &direction);

@@ -19,13 +19,13 @@ constexpr double kStep = 0.01;  // s
 bool sticks(const ContactProblem& problem) {
   const ContactProblem p = whiten(problem).problem;
   const ContactGraph graph = contact_graph(p);
-  const CoulombSubproblem sub{
-      p, graph, 0.0, root_mean_mass(problem), delassus_traces(problem) / 3.0, VecX::Zero(p.b.size())};
+  const CoulombSubproblem sub{p, 0.0, root_mean_mass(problem), delassus_traces(problem) / 3.0,
+                              VecX::Zero(p.b.size())};
   const StickingSystem system = sticking_system(sub);
   VecX w;
   BlockLu lu;
   SolveSummary summary;
-  EXPECT_TRUE(CoulombDirection(&lu).solve_symmetric(p, graph, system.G, system.rhs, &w, &summary));
+  EXPECT_TRUE(CoulombDirection(p, graph, &lu).solve_symmetric(system.G, system.rhs, &w, &summary));
   return keeps_sticking(sub, point_at(sub, w));
 }
 
