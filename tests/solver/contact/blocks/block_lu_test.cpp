@@ -42,7 +42,7 @@ TEST(ContactJacobian, HasTheSameBitsAfterAnySequence) {
   ContactJacobian kept(dome.problem, dome.graph);
   std::vector<Mat3> G(nc, Mat3::Zero());
   for (const int every : {1, 7, 29, nc + 1, 3}) {
-    const VecX values = random_vector(9 * nc);
+    const VecX values = every * random_vector(9 * nc);
     for (int i = 0; i < nc; i += every)
       G[i] = i % 2 == 0 ? Mat3(Eigen::Map<const Mat3>(values.data() + 9 * i)) : Mat3(Mat3::Zero());
     const UnsymmetricBlockMatrix& J = kept.at(G);
@@ -50,6 +50,13 @@ TEST(ContactJacobian, HasTheSameBitsAfterAnySequence) {
     EXPECT_EQ(J.diagonal, anew.at(G).diagonal);
     EXPECT_EQ(J.lower, anew.at(G).lower);
     EXPECT_EQ(J.upper, anew.at(G).upper);
+    const VecX x = random_vector(6 * dome.graph.pattern.num_blocks());
+    VecX expected = relative_velocity(dome.problem, x);
+    for (int i = 0; i < nc; ++i) expected.segment<3>(3 * i) = (G[i] * expected.segment<3>(3 * i)).eval();
+    expected = generalized_impulse(dome.problem, expected);
+    for (int k = 0; k < dome.graph.pattern.num_blocks(); ++k)
+      expected.segment<6>(6 * k) += dome.problem.M[k] * x.segment<6>(6 * k);
+    EXPECT_LE((multiply(dome.graph.pattern, J, x) - expected).norm(), 1e-13 * expected.norm());  // rounding
   }
 }
 
