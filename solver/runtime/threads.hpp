@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <barrier>
 #include <cstdint>
 #include <exception>
-#include <latch>
-#include <optional>
-#include <thread>
+#include <functional>
 #include <utility>
 #include <vector>
+
+#include "solver/runtime/workers.hpp"
 
 namespace cupola {
 
@@ -21,54 +20,41 @@ void set_num_threads(int count);  ///< throws SystemError if the address space i
 /// A team of threads that run the same program and share its loops.
 class Team {
  public:
-  explicit Team(int size) : barrier_(size, Reset{this}), size_(size) {}
+  explicit Team(int size) : size_(size) {}
   int size() const { return size_; }
 
   /// Calls body(i) for i in [0, count), distributed dynamically over the threads. Returns when all are done.
   template <class Body>
   void share(int count, const Body& body) {
+    const unsigned loop = done_.now();
     for (int i = next_++; i < count; i = next_++) body(i);
-    barrier_.arrive_and_wait();
+    if (++arrived_ < size_) return done_.await(loop);
+    next_ = arrived_ = 0;
+    done_.advance();
   }
 
  private:
-  struct Reset {
-    Team* team;
-    void operator()() const noexcept { team->next_ = 0; }
-  };
-  std::atomic<int> next_ = 0;
-  std::barrier<Reset> barrier_;
+  std::atomic<int> next_ = 0, arrived_ = 0;
+  Epoch done_;
   int size_;
 };
-
-/// True on the threads of a team, whose own teams have one thread.
-inline thread_local bool inside_team = false;
 
 /// Runs program(team, thread) on num_threads() threads including the calling one, or only on the calling one
 /// if `work` (floating-point operations) is too small for more, or if it belongs to a team already. If the
 /// system cannot start that many threads, it uses those that could be started. The program must not throw.
 template <class Program>
 void run_team(double work, const Program& program) {
-  constexpr double kMinWork = 1e7;  // takes some milliseconds, a thread a tenth of one to start
-  const int size = work < kMinWork || inside_team ? 1 : num_threads();
-  std::optional<Team> team;
-  std::latch complete(1);
-  std::vector<std::jthread> others;  // joined before the team is destroyed
-  others.reserve(static_cast<std::size_t>(size));
-  try {
-    for (int thread = 1; thread < size; ++thread)
-      others.emplace_back([&program, &team, &complete, thread] {
-        complete.wait();
-        inside_team = true;
-        program(*team, thread);
-      });
-  } catch (const std::exception&) {  // no memory or process limit: the threads started so far do the work
-  }
-  team.emplace(1 + static_cast<int>(others.size()));
-  complete.count_down();
-  const bool nested = std::exchange(inside_team, inside_team || size > 1);
-  program(*team, 0);
+  constexpr double kMinWork = 3e5;  // takes a tenth of a millisecond, a team a hundredth of one to start
+  const bool alone = work < kMinWork || inside_team || num_threads() == 1;
+  Workers& workers = Workers::of_program();
+  const int others = alone ? 0 : workers.take(num_threads() - 1);
+  Team team(1 + others);
+  const std::function<void(int)> run = [&](int thread) { program(team, thread); };
+  if (others > 0) workers.start(run);
+  const bool nested = std::exchange(inside_team, inside_team || others > 0);
+  run(0);
   inside_team = nested;
+  if (others > 0) workers.finish();
 }
 
 /// Returns freed memory to the system, if it is more than a little and no other solves use the heap, which

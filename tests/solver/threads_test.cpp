@@ -1,0 +1,66 @@
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "solver/runtime/threads.hpp"
+
+namespace cupola::threads_test {
+namespace {
+
+constexpr double kWork = 1e12;  // enough for all threads
+
+class Teams : public testing::Test {
+ protected:
+  ~Teams() override { set_num_threads(1); }
+};
+
+// The workers stay from team to team, through numbers of threads that rise and fall, asleep or awake.
+TEST_F(Teams, HaveEachThreadOnce) {
+  for (const int size : {1, 3, 2, 8, 2}) {
+    set_num_threads(size);
+    for (int call = 0; call < 200; ++call) {
+      if (call % 50 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the workers sleep
+      std::vector<std::atomic<int>> calls(size);
+      run_team(kWork, [&](Team& team, int thread) {
+        if (team.size() == size) ++calls[thread];
+      });
+      for (const std::atomic<int>& n : calls) EXPECT_EQ(n, 1) << size << " threads";
+    }
+  }
+}
+
+TEST_F(Teams, AreOfOneThreadInsideAnotherAndForLittleWork) {
+  set_num_threads(3);
+  std::atomic<int> inside = 0;
+  run_team(kWork, [&](Team&, int) { run_team(kWork, [&](Team& team, int) { inside += team.size(); }); });
+  EXPECT_EQ(inside, 3) << "one thread for each of three";
+  run_team(1.0, [&](Team& team, int) { EXPECT_EQ(team.size(), 1); });
+  run_team(kWork, [&](Team& team, int) { EXPECT_EQ(team.size(), 3); });
+}
+
+TEST_F(Teams, OfTwoThreadsAtOnceEndBoth) {
+  set_num_threads(4);
+  std::atomic<int> sum = 0;
+  const auto add = [&] {
+    for (int call = 0; call < 100; ++call) share_loop(kWork, 100, [&](int i) { sum += i; });
+  };
+  { const std::jthread first(add), second(add); }
+  EXPECT_EQ(sum, 2 * 100 * 4950);
+}
+
+TEST_F(Teams, WorkAgainAfterAnException) {
+  set_num_threads(3);
+  for (int call = 0; call < 20; ++call) {
+    EXPECT_THROW(share_loop(kWork, 10, [](int i) { i == 7 ? throw std::runtime_error("7") : void(); }),
+                 std::runtime_error);
+    std::atomic<int> count = 0;
+    share_range(kWork, 1000, [&](int first, int last) { count += last - first; });
+    EXPECT_EQ(count, 1000);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::threads_test
