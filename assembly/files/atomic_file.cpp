@@ -1,12 +1,12 @@
 #include "assembly/files/atomic_file.hpp"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -128,10 +128,14 @@ std::string read_text(const std::string& path) {
   if (!in || std::filesystem::is_directory(path)) {
     throw InputError(FileLocation{path}, errno == ENOENT ? "does not exist" : "cannot be read");
   }
-  std::ostringstream text;
-  text << in.rdbuf();
+  std::string text;
+  std::error_code unknown;  // a pipe has no size
+  if (const auto size = std::filesystem::file_size(path, unknown); !unknown) text.reserve(size);
+  std::array<char, 1 << 16> chunk{};
+  while (in.read(chunk.data(), chunk.size()) || in.gcount() > 0)
+    text.append(chunk.data(), static_cast<size_t>(in.gcount()));
   if (in.bad()) throw SystemError(path + ": reading failed");
-  return text.str();
+  return text;
 }
 
 }  // namespace cupola

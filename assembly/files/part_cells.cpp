@@ -42,6 +42,8 @@ std::optional<std::array<int, 8>> hexahedron_corners(const Assembly& assembly, c
 
 void add_part_cells(const Assembly& assembly, Mesh* mesh) {
   std::vector<int> faces;
+  mesh->cell_points.reserve(assembly.face_vertices.size() + assembly.face_kinds.size() +
+                            assembly.parts.size());
   for (const Part& part : assembly.parts) {
     if (const auto corners = hexahedron_corners(assembly, part)) {
       mesh->add_cell(Mesh::CellType::hexahedron, *corners);

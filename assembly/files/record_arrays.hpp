@@ -74,6 +74,7 @@ struct ColumnReader {
   template <class T>
   void operator()(const char* key, const char*, const char*, std::vector<T>& column) const {
     const auto& values = array_of<T>(mesh, arrays, key, rows);
+    column.reserve(rows);
     for (std::size_t row = 0; row < rows; ++row) column.push_back(value_at<T>(values, row));
   }
 };
@@ -119,6 +120,7 @@ std::vector<Row> read_rows(const Mesh& mesh, const std::vector<MeshArray>& array
 
 inline std::vector<Vec3> points_of(const Mesh& mesh) {
   std::vector<Vec3> points;
+  points.reserve(mesh.points.size() / 3);
   for (int i = 0; i < mesh.num_points(); ++i) points.emplace_back(mesh.points.data() + 3 * i);
   return points;
 }

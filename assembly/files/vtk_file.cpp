@@ -219,7 +219,8 @@ void write_data(const std::string& side_path, vtkDataSet* data, const Mesh& mesh
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOn();  // raw appended data is not well-formed XML
   writer->SetHeaderTypeToUInt64();
-  writer->SetCompressionLevel(1);  // higher levels hardly compress floating-point data further
+  writer->SetCompressionLevel(1);   // higher levels hardly compress floating-point data further
+  writer->SetBlockSize(1U << 18U);  // bytes; in those of 32 kB, the default, points take a quarter more
   CapturedVtkMessages messages;
   errno = 0;  // VTK's messages do not say why the system refused
   if (writer->Write() == 1 && !messages.any()) return;

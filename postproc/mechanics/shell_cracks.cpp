@@ -201,10 +201,14 @@ std::vector<ShellCrack> shell_cracks(const Assembly& assembly, const ContactTabl
   const std::vector<OpenJoint> open = open_joints(contacts, joints, axes);
   const Chains chains(assembly, joints, open);
   const std::vector<std::vector<int>> of_block = joints_of_blocks(assembly, joints, open);
-  std::vector<std::set<int>> near(assembly.blocks.size());  // blocks that share a joint
+  std::vector<std::vector<int>> near(assembly.blocks.size());  // blocks that share a joint, ascending
   for (const JointWrench& j : joints.wrenches) {
-    near[j.block_a].insert(j.block_b);
-    near[j.block_b].insert(j.block_a);
+    near[j.block_a].push_back(j.block_b);
+    near[j.block_b].push_back(j.block_a);
+  }
+  for (std::vector<int>& blocks : near) {
+    std::ranges::sort(blocks);
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   }
   std::vector<int> parent(open.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <Eigen/Geometry>
 
@@ -33,21 +32,21 @@ Vec3 drawn_force(const JointWrench& joint) {
 DisplacedBlocks::DisplacedBlocks(const Evaluation& evaluation) : evaluation_(evaluation) {
   const Assembly& assembly = evaluation.assembly;
   Assembly split = assembly;
-  std::map<int, int> new_id;  // of the current block's vertices
-  int block = -1;
+  std::vector<int> new_id(assembly.vertices.size(), -1);
+  int first = 0, block = -1;  // new ids from `first` on are the current block's
   for (const Part& part : assembly.parts) {
-    if (part.block != block) new_id.clear();
+    if (part.block != block) first = static_cast<int>(vertices_.size());
     block = part.block;
     const int start = assembly.face_vertex_start[part.face_start];
     const int end = assembly.face_vertex_start[part.face_start + part.num_faces];
     for (int i = start; i < end; ++i) {
       const int old_id = assembly.face_vertices[i];
-      const auto [entry, is_new] = new_id.try_emplace(old_id, static_cast<int>(vertices_.size()));
-      if (is_new) {
+      if (new_id[old_id] < first) {
+        new_id[old_id] = static_cast<int>(vertices_.size());
         vertices_.push_back(assembly.vertices[old_id]);
         vertex_block_.push_back(block);
       }
-      split.face_vertices[i] = entry->second;
+      split.face_vertices[i] = new_id[old_id];
     }
   }
   add_part_cells(split, &mesh_);

@@ -35,8 +35,10 @@ nlohmann::json& PackedArrays::append(const std::string& name, const char* type, 
   CUPOLA_ASSERT(!arrays_.contains(name));
   arrays_[name] = {{"type", type}, {"start", payload_.size()}, {"count", count}};
   const char* bytes = static_cast<const char*>(data);
+  size_t end = payload_.size();
+  payload_.resize(end + count * size);
   for (size_t k = 0; k < size; ++k)
-    for (size_t i = 0; i < count; ++i) payload_ += bytes[i * size + k];
+    for (size_t i = 0; i < count; ++i) payload_[end++] = bytes[i * size + k];
   return arrays_[name];
 }
 

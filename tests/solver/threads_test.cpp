@@ -1,18 +1,19 @@
+#include "solver/runtime/threads.hpp"
+
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "solver/runtime/threads.hpp"
-
 namespace cupola::threads_test {
 namespace {
 
 constexpr double kWork = 1e12;  // enough for all threads
 
-class Teams : public testing::Test {
+class Teams : public ::testing::Test {
  protected:
   ~Teams() override { set_num_threads(1); }
 };
@@ -30,6 +31,16 @@ TEST_F(Teams, HaveEachThreadOnce) {
       for (const std::atomic<int>& n : calls) EXPECT_EQ(n, 1) << size << " threads";
     }
   }
+}
+
+TEST_F(Teams, ShareOneLoopAfterAnother) {
+  constexpr int kLoops = 50, kCount = 30;
+  set_num_threads(3);
+  std::vector<std::atomic<int>> calls(kCount);
+  run_team(kWork, [&](Team& team, int) {
+    for (int loop = 0; loop < kLoops; ++loop) team.share(kCount, [&](int i) { ++calls[i]; });
+  });
+  for (const std::atomic<int>& n : calls) EXPECT_EQ(n, kLoops);
 }
 
 TEST_F(Teams, AreOfOneThreadInsideAnotherAndForLittleWork) {
