@@ -1,4 +1,4 @@
-#include "solver/analysis/admissible/range_run.hpp"
+#include "solver/analysis/range_run.hpp"
 
 #include <algorithm>
 #include <numeric>
