@@ -117,7 +117,7 @@ bool ConstructionRun::advance_at_once() {
     const std::lock_guard lock(laying);
     for (; laid <= i; ++laid) {
       building_.lay(stages_[first + laid].blocks, stages_[first + laid].ring);
-      separate[laid] = std::make_unique<Separate>(building_);
+      separate[laid] = std::make_unique<Separate>(Separate{building_});
     }
     return *separate[i];
   };
