@@ -43,7 +43,7 @@ compare() {
   compared=$((compared + 1))
   contents "$2" 'threads|"run.yaml"' | cmp -s - "$work/expected" && return
   differ=$((differ + 1)); echo "DIFFERENT: $name, $1:"
-  contents "$2" 'threads|"run.yaml"' | diff - "$work/expected" | head -n 5
+  contents "$2" 'threads|"run.yaml"' | diff - "$work/expected" | head -n 60
 }
 # Threads of libraries; those of the program are set by --threads.
 library_threads() { export OMP_NUM_THREADS=$1 OPENBLAS_NUM_THREADS=$1; }
