@@ -44,7 +44,7 @@ class Team {
 /// system cannot start that many threads, it uses those that could be started. The program must not throw.
 template <class Program>
 void run_team(double work, const Program& program) {
-  constexpr double kMinWork = 3e5;  // takes a tenth of a millisecond, a team a hundredth of one to start
+  constexpr double kMinWork = 3e5;  // chosen: takes a tenth of a millisecond
   const bool alone = work < kMinWork || inside_team || num_threads() == 1;
   Workers& workers = Workers::of_program();
   const int others = alone ? 0 : workers.take(num_threads() - 1);
