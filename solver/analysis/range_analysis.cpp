@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/admissible/range_end.hpp"
@@ -142,7 +143,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
           fmt::format("; one of {} sectors was solved for {} of {} quantities, those that repeat", sectors,
                       run.of_sector(), summary.ranges.size());
     if (run.images() > 0)
-      summary.message += fmt::format("; {} ends follow from others by symmetry", run.images());
+      summary.message += fmt::format("; {} from others by symmetry", counted(run.images(), "end"));
     sinks.table("ranges.csv", ranges_csv(summary.ranges));
   }
   summary.message += gaps_note(rigid.contacts, assembly);

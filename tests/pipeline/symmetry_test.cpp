@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "generators/generate.hpp"
 #include "solver/analysis/admissible/range_end.hpp"
@@ -64,8 +65,8 @@ void expect_ends_of_own_solves(const Case& of_case, const Assembly& assembly, in
   const auto objectives =
       range_objectives(of_case.analysis.range.quantities.at(0), of_case, scene.model, scene.contacts);
   ASSERT_EQ(summary.ranges.size(), objectives.size());
-  const std::string follow = images > 0 ? fmt::format("; {} ends follow from others", images) : "";
-  EXPECT_EQ(summary.message.find("ends follow") != std::string::npos, images > 0) << summary.message;
+  const std::string follow = images > 0 ? fmt::format("; {} from others", counted(images, "end")) : "";
+  EXPECT_EQ(summary.message.find("by symmetry") != std::string::npos, images > 0) << summary.message;
   EXPECT_NE(summary.message.find(follow), std::string::npos) << summary.message;
   const double slack = 1e-8 * scene.model.block_weight;  // ten times the tolerance of a solve
   for (size_t i = 0; i < objectives.size(); ++i) {
