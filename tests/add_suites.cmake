@@ -1,0 +1,35 @@
+# Writes FILE for ctest: a test for each suite of PROGRAM, because starting a program takes longer than most tests, or for
+# each 25 tests of a larger suite, so that they run side by side. Suites whose name ends in "Slow" carry the label `slow`.
+#
+#   cmake -DPROGRAM=build/bin/test_NAME -DNAME=NAME -DFILE=build/tests/NAME_suites.cmake -P add_suites.cmake
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE "#[^\n]*" "" list "${list}") # parameters
+string(REGEX MATCHALL "[^\n]+" lines "${list}")
+set(suites "")
+foreach(line ${lines})
+  if(line MATCHES "^([^ ]+)[.] *$")
+    set(suite ${CMAKE_MATCH_1})
+    list(APPEND suites ${suite})
+    set(tests_of_${suite} 0)
+  elseif(line MATCHES "^  ")
+    math(EXPR tests_of_${suite} "${tests_of_${suite}} + 1")
+  endif()
+endforeach()
+set(commands "")
+foreach(suite ${suites})
+  set(slow "")
+  if(suite MATCHES "Slow$")
+    set(slow "LABELS slow TIMEOUT 3600")
+  endif()
+  math(EXPR last "(${tests_of_${suite}} - 1) / 25")
+  math(EXPR parts "${last} + 1")
+  foreach(part RANGE ${last})
+    set(test "${NAME}/${suite}.")
+    if(parts GREATER 1)
+      string(APPEND test ${part})
+    endif()
+    string(APPEND commands "add_test([[${test}]] [[${PROGRAM}]] [[--gtest_filter=${suite}.*]])\nset_tests_properties([[${test}]] "
+      "PROPERTIES ENVIRONMENT GTEST_TOTAL_SHARDS=${parts}\\;GTEST_SHARD_INDEX=${part} ${slow})\n")
+  endforeach()
+endforeach()
+file(WRITE ${FILE} "${commands}")
