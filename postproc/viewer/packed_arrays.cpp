@@ -2,8 +2,9 @@
 
 #include <bit>
 #include <cmath>
+#include <memory>
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include "assembly/base/error.hpp"
 
@@ -20,13 +21,12 @@ std::uint32_t zigzag(std::int64_t difference) {
 }  // namespace
 
 std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(size, '\0');
-  const int outcome =
-      compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
-  if (outcome != Z_OK) throw SystemError("not enough memory to compress the 3-D view of the report");
-  out.resize(size);
+  // Higher levels compress 82,000 blocks by 1 % more, in up to twice the time.
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> deflate(
+      libdeflate_alloc_compressor(6), &libdeflate_free_compressor);
+  if (deflate == nullptr) throw SystemError("not enough memory to compress the 3-D view of the report");
+  std::string out(libdeflate_zlib_compress_bound(deflate.get(), bytes.size()), '\0');
+  out.resize(libdeflate_zlib_compress(deflate.get(), bytes.data(), bytes.size(), out.data(), out.size()));
   return out;
 }
 

@@ -11,7 +11,7 @@
 
 namespace cupola {
 
-/// Bytes deflated by zlib (RFC 1950), which browsers inflate as "deflate". Throws SystemError if memory is
+/// Bytes in zlib's format (RFC 1950), which browsers inflate as "deflate". Throws SystemError if memory is
 /// short.
 std::string deflated(const std::string& bytes);
 
