@@ -3,7 +3,6 @@
 #include <map>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
@@ -16,8 +15,7 @@ TriangleMesh convex_hull(std::span<const Vec3> points) {
   for (const Vec3& p : points) input.emplace_back(p.x(), p.y(), p.z());
   HullMesh hull;
   CGAL::convex_hull_3(input.begin(), input.end(), hull);
-  if (hull.number_of_faces() < 4) return {};
-  if (!CGAL::is_triangle_mesh(hull)) CGAL::Polygon_mesh_processing::triangulate_faces(hull);
+  if (hull.number_of_faces() < 4) return {};  // CGAL makes one face of coplanar points, else triangles
   TriangleMesh mesh;
   std::map<HullMesh::Vertex_index, int> id;
   for (const auto v : hull.vertices()) {
