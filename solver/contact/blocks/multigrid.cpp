@@ -10,6 +10,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/contact/blocks/aggregation.hpp"
+#include "solver/contact/blocks/sweeps.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {
@@ -17,14 +18,11 @@ namespace cupola {
 namespace {
 
 constexpr int kCoarsest = 1500;  // blocks; a factorisation takes a few hundredths of a second
-constexpr int kPiece = 4096;     // rows that a sweep visits in sequence
 constexpr double kOperationsPerInverse = 1000.0;
 /// Below this mean of the diagonal, where 1 is inertia, a level has no coarser one. In the collapse of 11,568
 /// bricks (means of 60 to 250) a step then takes 13 % less time, as sweeps need few CG iterations by
 /// themselves.
 constexpr double kSoft = 300.0;
-
-using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// Inverses of the diagonal blocks; empty if one of them is not positive definite.
 std::vector<Mat6> inverse_diagonal(const BlockRows& A) {
@@ -124,74 +122,6 @@ BlockRows smoothed(const BlockRows& A, const std::vector<Mat6>& inverse, const B
   return P;
 }
 
-/// Calls body(first, last) for each piece of a sweep.
-template <class Body>
-void share_pieces(const SingleBlockRows& A, const Body& body) {
-  const int n = A.num_rows();
-  constexpr double kOfEntry = 72.0;
-  share_loop(kOfEntry * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
-             [&](int piece) { body(piece * kPiece, std::min(n, (piece + 1) * kPiece)); });
-}
-
-/// Forward sweep from x = 0; each piece takes the others as zero.
-VecX sweep_forward(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r) {
-  VecX x(r.size());
-  share_pieces(A, [&](int first, int last) {
-    for (int i = first; i < last; ++i) {
-      Vec6 sum = r.segment<6>(6 * i);
-      for (int k = A.start[i]; A.column[k] < i; ++k)
-        if (A.column[k] >= first) sum.noalias() -= A.value[k].cast<double>() * x.segment<6>(6 * A.column[k]);
-      x.segment<6>(6 * i).noalias() = inverse[i] * sum;
-    }
-  });
-  return x;
-}
-
-/// r - A x after a forward sweep: only the entries that the sweep has not used contribute.
-VecX residual_after_sweep(const SingleBlockRows& A, const VecX& x) {
-  VecX residual(x.size());
-  share_pieces(A, [&](int first, int last) {
-    for (int i = first; i < last; ++i) {
-      Vec6 sum = Vec6::Zero();
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k)
-        if (A.column[k] > i || A.column[k] < first)
-          sum.noalias() -= A.value[k].cast<double>() * x.segment<6>(6 * A.column[k]);
-      residual.segment<6>(6 * i) = sum;
-    }
-  });
-  return residual;
-}
-
-/// Backward sweep on the residual r - A x; the transpose of sweep_forward.
-void sweep_backward(const SingleBlockRows& A, const std::vector<Mat6>& inverse, const VecX& r, VecX* x) {
-  const VecX before = *x;
-  share_pieces(A, [&](int first, int last) {
-    for (int i = last - 1; i >= first; --i) {
-      Vec6 sum = r.segment<6>(6 * i);
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
-        const int j = A.column[k];
-        if (j == i) continue;
-        const VecX& from = first <= j && j < last ? *x : before;
-        sum.noalias() -= A.value[k].cast<double>() * from.segment<6>(6 * j);
-      }
-      x->segment<6>(6 * i).noalias() = inverse[i] * sum;
-    }
-  });
-}
-
-/// Completes a forward sweep from x = 0 to a symmetric one within each piece: x <- (1 + D^-1 U)^-1 x with the
-/// upper triangle U.
-void complete_sweep(const SingleBlockRows& A, const std::vector<Mat6>& inverse, VecX* x) {
-  share_pieces(A, [&](int first, int last) {
-    for (int i = last - 1; i >= first; --i) {
-      Vec6 sum = Vec6::Zero();
-      for (int k = A.start[i + 1] - 1; A.column[k] > i; --k)
-        if (A.column[k] < last) sum.noalias() += A.value[k].cast<double>() * x->segment<6>(6 * A.column[k]);
-      x->segment<6>(6 * i).noalias() -= inverse[i] * sum;
-    }
-  });
-}
-
 }  // namespace
 
 bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
@@ -209,7 +139,7 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     level.inverse = inverse_diagonal(A);
     if (level.inverse.empty()) return false;
     if (ends_in_sweeps_) {
-      level.A = in_single_precision(A);
+      level.A = in_order_of_sweeps(A);
       levels_.push_back(std::move(level));
       return true;
     }
@@ -220,7 +150,7 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
     level.P = in_single_precision(smoothed(A, level.inverse, aggregated->T, lambda));
     const BlockRows AP = multiply(A, level.P);
-    level.A = in_single_precision(A);
+    level.A = in_order_of_sweeps(A);
     A = {};  // for a large model these matrices are most of the peak of a solve
     level.P_transposed = transpose(level.P);
     A = multiply(level.P_transposed, AP);
