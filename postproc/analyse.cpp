@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <future>
 
 #include <fmt/format.h>
 
@@ -108,13 +109,16 @@ struct Drawn {
 Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const std::optional<Figure>& own,
            const std::vector<HistoryRow>& history, Evaluation* e) {
   const std::string& folder = request.output_folder;
+  Drawn drawn{"", result_figures(*e, history), ""};
+  if (own) drawn.figures.insert(drawn.figures.begin(), *own);
+  std::future<std::vector<std::string>> drawing =  // takes as long as what follows on this thread
+      std::async(std::launch::async,
+                 [&] { return draw_figures(in_folder(folder, "figures"), drawn.figures); });
   Film film(*e);
   const std::vector<MovedBlocks> motion = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);
-  Drawn drawn{viewer_html(*e, film), result_figures(*e, history), {}};
-  if (own) drawn.figures.insert(drawn.figures.begin(), *own);
-  for (std::string& problem : draw_figures(in_folder(folder, "figures"), drawn.figures))
-    e->warnings.push_back(std::move(problem));
+  drawn.viewer = viewer_html(*e, film);
+  for (std::string& problem : drawing.get()) e->warnings.push_back(std::move(problem));
   write_paraview_script(folder);
   if (request.pictures) {
     drawn.picture_folder = in_folder(folder, "pictures");
