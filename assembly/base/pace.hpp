@@ -4,14 +4,14 @@
 
 namespace cupola {
 
-/// Paces work that is repeated during a run, such as saving its state: it is due again after twenty times as
-/// long as it took, so that it takes at most a twentieth of the run.
+/// Paces work that is repeated during a run, such as saving its state: it is due again after a hundred times
+/// as long as it took, so that it takes at most a hundredth of the run.
 class Pace {
  public:
   bool is_due() const { return wall_seconds() >= next_; }
   template <class Work>
   void run(const Work& work) {
-    constexpr double kRest = 20.0;
+    constexpr double kRest = 100.0;
     const double started = wall_seconds();
     work();
     const double ended = wall_seconds();

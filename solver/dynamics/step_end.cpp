@@ -66,12 +66,13 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
   for (int i = 0; i < step.num_contacts; ++i) {
     const Contact& contact = contacts.points[i];
     ContactMemory& memory = values[i];
+    const Mat3 R_WC = contact_frame(contact.normal);
     const double rest = known_motion(step, i, state.v, options).rest[0];
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
     const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
-    memory.tangent_A = state.poses[contact.block_a].q_WB.conjugate() * contact_frame(contact.normal).col(1);
+    memory.tangent_A = state.poses[contact.block_a].q_WB.conjugate() * R_WC.col(1);
     const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
     const bool is_pulled = gamma[0] < 0.0 && model.joints.has_strength();
     memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
@@ -85,12 +86,11 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
                                  h * (u.segment<3>(3 * i) - u_el), gamma, &memory.joint);
 
     const Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
-    memory.elastic_slip_A =
-        state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * slip_C);
+    memory.elastic_slip_A = state.poses[contact.block_a].q_WB.conjugate() * (R_WC * slip_C);
     if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
     if (options.integrator.is_euler()) continue;
     const Vec3 force_C = gamma / step.impulse_time[3 * i];
-    update_past(state.poses[contact.block_a].q_WB.conjugate() * (contact_frame(contact.normal) * force_C),
+    update_past(state.poses[contact.block_a].q_WB.conjugate() * (R_WC * force_C),
                 contact.gap + rest + h * u[3 * i], options, &memory);
   }
   memories->ties.resize(model.ties.size());

@@ -134,7 +134,7 @@ void Construction::accept(const StaticSolution& solution) {
   CUPOLA_ASSERT(solution.outcome == StaticOutcome::equilibrium);
   if (!site_->scene.analysis.staged.carry) return;
   new_.clear();
-  ContactMemories memories = problem_.memories;
+  ContactMemories& memories = problem_.memories;
   update_memories(problem_.model, solution.step, solution.step_solution, problem_.rest, problem_.contacts,
                   static_step_options(options_, solution.h), &memories);
   const VecX u = relative_velocity(solution.step.problem, solution.step_solution.v);

@@ -38,7 +38,6 @@ double head_squeeze(const Construction& building, const StaticSolution& solution
   const BuildingSite& site = building.site();
   const BuiltState& state = building.state();
   const std::vector<int>& rows = building.problem().rows;
-  const VecX u = relative_velocity(solution.step.problem, solution.step_solution.v);
   double squeeze = 0.0;
   for (size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = site.contacts.points[rows[k]];
@@ -46,7 +45,8 @@ double head_squeeze(const Construction& building, const StaticSolution& solution
     if (patch.kind != JointKind::head || patch.ring <= state.ring - site.scene.analysis.staged.fresh.courses)
       continue;
     const BuiltContact& joint = state.joints[rows[k]];
-    const double gap = joint.gap + solution.h * u[3 * static_cast<Eigen::Index>(k)];
+    const Vec3 u = relative_velocity(solution.step.problem, static_cast<int>(k), solution.step_solution.v);
+    const double gap = joint.gap + solution.h * u[0];
     squeeze = std::max(squeeze, contact.gap + joint.hardened - gap);
   }
   return squeeze;

@@ -81,7 +81,12 @@ StageProblem stage_problem(const BuildingSite& site, const BuiltState& state,
   problem.contacts.patches = site.contacts.patches;
   problem.memories.as_built = false;
   const auto is_free = [&](int block) { return problem.model.free_index[block] != ContactProblem::kFixed; };
-  for (size_t i = 0; i < site.contacts.points.size(); ++i) {
+  const size_t most = site.contacts.points.size();
+  problem.rows.reserve(most);
+  problem.contacts.points.reserve(most);
+  problem.memories.ids.reserve(most);
+  problem.memories.values.reserve(most);
+  for (size_t i = 0; i < most; ++i) {
     Contact contact = site.contacts.points[i];
     if (!state.laid[contact.block_a] || !state.laid[contact.block_b]) continue;
     if (!is_free(contact.block_a) && !is_free(contact.block_b)) continue;

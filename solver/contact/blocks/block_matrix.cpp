@@ -33,7 +33,9 @@ ContactGraph contact_graph(const ContactProblem& problem) {
   std::vector<std::pair<int, int>> pairs;
   pairs.reserve(nc);
   for (int i = 0; i < nc; ++i) {
-    if (joins_two_free(problem, i)) pairs.push_back(column_and_row(problem, i));
+    if (!joins_two_free(problem, i)) continue;
+    const std::pair<int, int> pair = column_and_row(problem, i);
+    if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);  // contacts of a joint are neighbours
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -49,9 +51,12 @@ ContactGraph contact_graph(const ContactProblem& problem) {
   for (int k = 0; k < nb; ++k) graph.pattern.column_start[k + 1] += graph.pattern.column_start[k];
 
   graph.pair_of_contact.assign(nc, -1);
+  auto position = pairs.end();
   for (int i = 0; i < nc; ++i) {
     if (!joins_two_free(problem, i)) continue;
-    const auto position = std::lower_bound(pairs.begin(), pairs.end(), column_and_row(problem, i));
+    const std::pair<int, int> pair = column_and_row(problem, i);
+    if (position == pairs.end() || *position != pair)
+      position = std::lower_bound(pairs.begin(), pairs.end(), pair);
     graph.pair_of_contact[i] = static_cast<int>(position - pairs.begin());
   }
   return graph;
