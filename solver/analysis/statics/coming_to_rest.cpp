@@ -18,6 +18,78 @@ namespace {
 // weight.
 constexpr double kLonger = 30.0;
 
+/// Marks the given blocks and those that at most `reach` joints separate from them.
+std::vector<char> blocks_around(const ContactProblem& p, const std::vector<int>& blocks, int reach) {
+  std::vector<char> marked(p.num_blocks());
+  for (const int block : blocks) marked[block] = 1;
+  for (int k = 0; k < reach; ++k) {
+    const std::vector<char> before = marked;
+    for (int i = 0; i < p.num_contacts(); ++i) {
+      const int a = p.block_a[i], b = p.block_b[i];
+      if (a == ContactProblem::kFixed || b == ContactProblem::kFixed) continue;
+      if (before[a] != 0) marked[b] = 1;
+      if (before[b] != 0) marked[a] = 1;
+    }
+  }
+  return marked;
+}
+
+VecX choose(const VecX& values, const std::vector<int>& which, int size) {
+  VecX chosen(size * std::ssize(which));
+  for (Eigen::Index k = 0; k < std::ssize(which); ++k)
+    chosen.segment(size * k, size) = values.segment(Eigen::Index{size} * which[k], size);
+  return chosen;
+}
+
+/// The problem of some blocks, while the others rest.
+ContactProblem problem_of(const ContactProblem& whole, const std::vector<int>& blocks) {
+  ContactProblem p;
+  p.h = whole.h;
+  p.plane = whole.plane;
+  p.v_star = choose(whole.v_star, blocks, 6);
+  std::vector<int> index(whole.num_blocks(), ContactProblem::kFixed);
+  for (const int block : blocks) {
+    index[block] = p.num_blocks();
+    p.M.push_back(whole.M[block]);
+  }
+  const auto index_of = [&](int block) { return block == ContactProblem::kFixed ? block : index[block]; };
+  std::vector<int> rows;
+  for (int i = 0; i < whole.num_contacts(); ++i) {
+    const int a = index_of(whole.block_a[i]), b = index_of(whole.block_b[i]);
+    if (a == ContactProblem::kFixed && b == ContactProblem::kFixed) continue;
+    rows.push_back(i);
+    p.block_a.push_back(a);
+    p.block_b.push_back(b);
+    p.D_a.push_back(whole.D_a[i]);
+    p.D_b.push_back(whole.D_b[i]);
+    if (!whole.strength.empty()) p.strength.push_back(whole.strength[i]);
+  }
+  p.b = choose(whole.b, rows, 3);
+  p.E = choose(whole.E, rows, 3);
+  p.mu = choose(whole.mu, rows, 1);
+  return p;
+}
+
+/// Lets blocks settle with those around them, while the others rest. Most contacts that a new block opens or
+/// slides are near it: the solve of the whole structure then takes fewer, larger iterations.
+void settle_around(const ContactProblem& whole, const std::vector<int>& new_blocks,
+                   ContactSolverOptions options, VecX* v) {
+  constexpr int kReach = 5;            // of a dome of 512 blocks some 46
+  constexpr int kSmallestShare = 3;    // of the whole structure; a larger part does not pay
+  constexpr double kTolerance = 1e-3;  // of a start
+  const std::vector<char> marked = blocks_around(whole, new_blocks, kReach);
+  std::vector<int> blocks;
+  for (int block = 0; block < whole.num_blocks(); ++block)
+    if (marked[block] != 0) blocks.push_back(block);
+  if (kSmallestShare * std::ssize(blocks) > whole.num_blocks()) return;
+  options.tolerance = std::max(options.tolerance, kTolerance);
+  options.lag_factor = true;
+  ContactSolution part{choose(*v, blocks, 6), {}};
+  if (!ContactSolver().solve(problem_of(whole, blocks), options, &part).usable()) return;
+  for (Eigen::Index k = 0; k < std::ssize(blocks); ++k)
+    v->segment<6>(6 * Eigen::Index{blocks[k]}) = part.v.segment<6>(6 * k);
+}
+
 }  // namespace
 
 ComingToRest::ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
@@ -42,6 +114,7 @@ bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
     }
     x_.v.segment<6>(6 * block) = H.llt().solve(impulse);
   }
+  settle_around(problem, new_blocks, solve_options(), &x_.v);
   return true;
 }
 

@@ -23,8 +23,8 @@ class ComingToRest : public ProximalPoint {
     x_ = other.step_solution;
   }
 
-  /// Starts from rest, but for these free blocks: they stick to their neighbours at rest. False if a contact
-  /// is rigid.
+  /// Starts from rest, but for these free blocks, which stick to their neighbours. Of a large structure the
+  /// blocks around them move, too, as if the others were fixed. False if a contact is rigid.
   bool start_from_rest(const std::vector<int>& new_blocks);
 
  private:

@@ -51,7 +51,8 @@ bool CoulombDirection::solve(const std::vector<Mat3>& G, const VecX& F, std::opt
                              VecX* d, SolveSummary* summary) {
   const UnsymmetricBlockMatrix& J = jacobian_.at(G);
   if (forcing && solve_by_gmres(J, F, *forcing, d, summary)) return true;
-  if (forcing && last_ == Factor::symmetric && factorize_symmetric(uncoupled(G), summary) &&
+  const bool symmetric = last_ == Factor::symmetric || (last_ == Factor::none && first_ == First::symmetric);
+  if (forcing && symmetric && factorize_symmetric(uncoupled(G), summary) &&
       solve_by_gmres(J, F, *forcing, d, summary))
     return true;
   ++summary->factorizations;

@@ -13,17 +13,23 @@ namespace cupola {
 /// unsymmetric where contacts slide.
 class CoulombDirection {
  public:
+  /// How the first factor is made where a forcing is given and `lu` has none.
+  enum class First { unsymmetric, symmetric };
+
   /// Begins with the factor of `lu`, if it has one, and leaves its last LU factor there.
-  CoulombDirection(const ContactProblem& problem, const ContactGraph& graph, BlockLu* lu)
+  CoulombDirection(const ContactProblem& problem, const ContactGraph& graph, BlockLu* lu,
+                   First first = First::unsymmetric)
       : problem_(problem),
         graph_(graph),
         jacobian_(problem, graph),
         unsymmetric_(*lu),
+        first_(first),
         last_(lu->has_factor() ? Factor::unsymmetric : Factor::none) {}
 
   /// d with |J d - F| <= forcing |F| by GMRES, preconditioned with the last factor. Where it fails, a new
-  /// factor replaces the last: a Cholesky factor after a Cholesky factor, if GMRES succeeds with it,
-  /// otherwise an LU factor, which needs no GMRES. Without forcing always the latter. False if J is singular.
+  /// factor replaces the last: a Cholesky factor after a Cholesky factor or as the first one, if GMRES
+  /// succeeds with it, otherwise an LU factor, which needs no GMRES. Without forcing always the latter. False
+  /// if J is singular.
   [[nodiscard]] bool solve(const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing, VecX* d,
                            SolveSummary* summary);
 
@@ -43,6 +49,7 @@ class CoulombDirection {
   ContactJacobian jacobian_;
   BlockCholesky symmetric_;
   BlockLu& unsymmetric_;
+  const First first_;
   Factor last_;
 };
 

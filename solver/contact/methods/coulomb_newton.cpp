@@ -115,7 +115,10 @@ class CoulombSolve {
   const ContactGraph graph_ = contact_graph(problem_);
   CoulombSubproblem sub_{white_.problem, options_.law.dilatancy, root_mean_mass(problem_),
                          VecX::Zero(problem_.num_contacts()), VecX::Zero(problem_.b.size())};
-  CoulombDirection direction_{white_.problem, graph_, kept_.lu};
+  // A guess without impulses is that of a single solve, for which an LU factor would not be kept.
+  CoulombDirection direction_{white_.problem, graph_, kept_.lu,
+                              solution_->gamma.size() == 0 ? CoulombDirection::First::symmetric
+                                                           : CoulombDirection::First::unsymmetric};
   BestSolution best_{problem_, white_, options_, solution_};
   const bool rigid_ = first_rigid_contact(problem_).has_value();
   const double scale_ = sub_.root_mass * options_.reference_speed;
