@@ -96,5 +96,20 @@ TEST(CoulombDirection, RenewsFactorsOfTheKindThatServes) {
   EXPECT_EQ(solved.summary.conjugate_gradients, 1);  // with the LU factor of the same matrix
 }
 
+// The first factor is of the kind that is asked for, if it serves.
+TEST(CoulombDirection, BeginsWithTheFactorAskedFor) {
+  using First = CoulombDirection::First;
+  const System system = random_system(5.0, 1);
+  const auto begins_with_lu = [&](double forcing, First first) {
+    BlockLu lu;
+    CoulombDirection direction(system.problem, system.graph, &lu, first);
+    EXPECT_LE(solve(system, forcing, &direction).residual, 0.101);  // the larger forcing, and rounding
+    return lu.has_factor();
+  };
+  EXPECT_TRUE(begins_with_lu(0.1, First::unsymmetric));
+  EXPECT_FALSE(begins_with_lu(0.1, First::symmetric));
+  EXPECT_TRUE(begins_with_lu(1e-12, First::symmetric));  // GMRES takes more iterations than it may
+}
+
 }  // namespace
 }  // namespace cupola::coulomb_direction_test
