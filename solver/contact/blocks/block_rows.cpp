@@ -14,6 +14,8 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kOperationsPerEntry = 72.0;  // of a product with a vector
+constexpr double kOperationsPerProduct =
+    3000.0;  // of an entry of the left matrix with a row of the right one
 
 /// Columns of row i of A B, ascending. `seen_in` marks the columns found so far by the number of the row.
 template <class Left, class Right>
@@ -30,6 +32,50 @@ void columns_of_product(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B,
     }
   }
   std::sort(columns->begin(), columns->end());
+}
+
+/// A B without values.
+template <class Left, class Right>
+BlockRows pattern_of_product(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B) {
+  CUPOLA_ASSERT(A.num_columns == B.num_rows());
+  const double work = kOperationsPerProduct * static_cast<double>(A.column.size());
+  BlockRows C;
+  C.num_columns = B.num_columns;
+  C.start.assign(A.num_rows() + 1, 0);
+  const auto for_each_row = [&](const auto& action) {
+    share_range(work, A.num_rows(), [&](int first, int last) {
+      std::vector<int> seen_in(B.num_columns, -1), columns;
+      for (int i = first; i < last; ++i) {
+        columns_of_product(A, B, i, &seen_in, &columns);
+        action(i, columns);
+      }
+    });
+  };
+  for_each_row(
+      [&](int i, const std::vector<int>& columns) { C.start[i + 1] = static_cast<int>(columns.size()); });
+  std::partial_sum(C.start.begin(), C.start.end(), C.start.begin());
+  C.column.resize(C.start.back());
+  for_each_row([&](int i, const std::vector<int>& columns) {
+    std::copy(columns.begin(), columns.end(), C.column.begin() + C.start[i]);
+  });
+  return C;
+}
+
+/// Row i of A B, of which `C` is the pattern. `entry`: work array (num_columns).
+template <class Right>
+void multiply_row(const BlockRows& A, const BlockRowsOf<Right>& B, int i, const BlockRows& C, Mat6* row_of_C,
+                  std::vector<int>* entry) {
+  for (int k = C.start[i]; k < C.start[i + 1]; ++k) {
+    (*entry)[C.column[k]] = k - C.start[i];
+    row_of_C[k - C.start[i]].setZero();
+  }
+  for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
+    const int row = A.column[k];
+    for (int q = B.start[row]; q < B.start[row + 1]; ++q) {
+      const Mat6 right = B.value[q].template cast<double>();
+      row_of_C[(*entry)[B.column[q]]] += A.value[k].lazyProduct(right);
+    }
+  }
 }
 
 template <class Scalar>
@@ -99,53 +145,54 @@ VecX multiply(const SingleBlockRows& A, const VecX& x) {
   return product(A, x);
 }
 
-template <class Left, class Right>
-BlockRows multiply(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B) {
-  constexpr double kOperationsPerRow = 3000.0;  // each entry of A multiplies a row of B
-  const double work = kOperationsPerRow * static_cast<double>(A.value.size());
-  CUPOLA_ASSERT(A.num_columns == B.num_rows());
-  BlockRows C;
-  C.num_columns = B.num_columns;
-  C.start.assign(A.num_rows() + 1, 0);
-  share_range(work, A.num_rows(), [&](int first, int last) {
-    std::vector<int> seen_in(B.num_columns, -1), columns;
-    for (int i = first; i < last; ++i) {
-      columns_of_product(A, B, i, &seen_in, &columns);
-      C.start[i + 1] = static_cast<int>(columns.size());
-    }
-  });
-  std::partial_sum(C.start.begin(), C.start.end(), C.start.begin());
-  C.column.resize(C.start.back());
-  C.value.resize(C.start.back());
-  share_range(work, A.num_rows(), [&](int first, int last) {
-    std::vector<int> seen_in(B.num_columns, -1), columns, entry(B.num_columns);
-    for (int i = first; i < last; ++i) {
-      columns_of_product(A, B, i, &seen_in, &columns);
-      for (int k = C.start[i]; k < C.start[i + 1]; ++k) {
-        C.column[k] = columns[k - C.start[i]];
-        C.value[k].setZero();
-        entry[C.column[k]] = k;
-      }
-      for (int k = A.start[i]; k < A.start[i + 1]; ++k) {
-        const int row = A.column[k];
-        const Mat6 left = A.value[k].template cast<double>();
-        for (int q = B.start[row]; q < B.start[row + 1]; ++q) {
-          const Mat6 right = B.value[q].template cast<double>();
-          C.value[entry[B.column[q]]] += left.lazyProduct(right);
-        }
-      }
-    }
-  });
+BlockRows multiply(const BlockRows& A, const BlockRows& B) {
+  BlockRows C = pattern_of_product(A, B);
+  C.value.resize(C.column.size());
+  share_range(kOperationsPerProduct * static_cast<double>(A.value.size()), A.num_rows(),
+              [&](int first, int last) {
+                std::vector<int> entry(B.num_columns);
+                for (int i = first; i < last; ++i)
+                  multiply_row(A, B, i, C, C.value.data() + C.start[i], &entry);
+              });
   return C;
 }
 
-template BlockRows multiply(const BlockRows& A, const BlockRows& B);
-template BlockRows multiply(const BlockRows& A, const SingleBlockRows& B);
-template BlockRows multiply(const SingleBlockRows& A, const BlockRows& B);
+BlockRows galerkin_product(const BlockRows& A, const SingleBlockRows& P,
+                           const SingleBlockRows& P_transposed) {
+  constexpr int kRowsAtOnce = 4096;
+  const BlockRows AP = pattern_of_product(A, P);
+  BlockRows C = pattern_of_product(P_transposed, AP);
+  C.value.assign(C.column.size(), Mat6::Zero());
+  std::vector<Mat6> rows;  // of A P
+  for (int start = 0; start < A.num_rows(); start += kRowsAtOnce) {
+    const int end = std::min(start + kRowsAtOnce, A.num_rows());
+    const auto row_of_AP = [&](int i) { return rows.data() + AP.start[i] - AP.start[start]; };
+    rows.resize(std::max<std::size_t>(rows.size(), AP.start[end] - AP.start[start]));
+    const double work = kOperationsPerProduct * (A.start[end] - A.start[start]);
+    share_range(work, end - start, [&](int first, int last) {
+      std::vector<int> entry(P.num_columns);
+      for (int i = start + first; i < start + last; ++i) multiply_row(A, P, i, AP, row_of_AP(i), &entry);
+    });
+    share_sums(work, C.num_rows(), [&](int first, int last) {
+      for (int i = start; i < end; ++i) {
+        for (int k = P.start[i]; k < P.start[i + 1]; ++k) {
+          const int coarse = P.column[k];
+          if (coarse < first || coarse >= last) continue;
+          const Mat6 left = P.value[k].transpose().cast<double>();
+          int at = C.start[coarse];
+          for (int q = AP.start[i]; q < AP.start[i + 1]; ++q) {  // both rows have ascending columns
+            while (C.column[at] != AP.column[q]) ++at;
+            C.value[at] += left.lazyProduct(row_of_AP(i)[q - AP.start[i]]);
+          }
+        }
+      }
+    });
+  }
+  return C;
+}
 
-template <class Scalar>
-BlockRowsOf<Scalar> transpose(const BlockRowsOf<Scalar>& A) {
-  BlockRowsOf<Scalar> T;
+SingleBlockRows transpose(const SingleBlockRows& A) {
+  SingleBlockRows T;
   T.num_columns = A.num_rows();
   T.start.assign(A.num_columns + 1, 0);
   for (const int column : A.column) ++T.start[column + 1];
@@ -166,9 +213,6 @@ BlockRowsOf<Scalar> transpose(const BlockRowsOf<Scalar>& A) {
   });
   return T;
 }
-
-template BlockRows transpose(const BlockRows& A);
-template SingleBlockRows transpose(const SingleBlockRows& A);
 
 SingleBlockRows in_single_precision(const BlockRows& A) {
   SingleBlockRows S{A.start, A.column, {}, A.num_columns};

@@ -26,12 +26,14 @@ BlockRows both_triangles(const BlockPattern& pattern, const BlockMatrix& matrix)
 VecX multiply(const BlockRows& A, const VecX& x);
 VecX multiply(const SingleBlockRows& A, const VecX& x);
 
-/// A B in double precision, on num_threads() threads. Same bits for any number of threads.
-template <class Left, class Right>
-BlockRows multiply(const BlockRowsOf<Left>& A, const BlockRowsOf<Right>& B);
+/// A B, on num_threads() threads. Same bits for any number of threads.
+BlockRows multiply(const BlockRows& A, const BlockRows& B);
 
-template <class Scalar>
-BlockRowsOf<Scalar> transpose(const BlockRowsOf<Scalar>& A);
+/// P^T A P in double precision, without A P as a whole, which takes more memory than A. Runs on num_threads()
+/// threads, with the same bits for any number. `P_transposed`: of P.
+BlockRows galerkin_product(const BlockRows& A, const SingleBlockRows& P, const SingleBlockRows& P_transposed);
+
+SingleBlockRows transpose(const SingleBlockRows& A);
 
 SingleBlockRows in_single_precision(const BlockRows& A);
 

@@ -149,11 +149,10 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
     if (!aggregated) return false;
     const double lambda = levels_.empty() ? kFinestEigenvalue : largest_eigenvalue(A, level.inverse);
     level.P = in_single_precision(smoothed(A, level.inverse, aggregated->T, lambda));
-    const BlockRows AP = multiply(A, level.P);
-    level.A = in_order_of_sweeps(A);
-    A = {};  // for a large model these matrices are most of the peak of a solve
+    aggregated->T = {};
     level.P_transposed = transpose(level.P);
-    A = multiply(level.P_transposed, AP);
+    level.A = in_order_of_sweeps(A);
+    A = galerkin_product(A, level.P, level.P_transposed);
     levels_.push_back(std::move(level));
     motions = std::move(aggregated->coarse);
   }

@@ -47,10 +47,12 @@ TEST(BlockRows, MultiplyLikeDenseMatrices) {
   const VecX x = VecX::LinSpaced(6 * 20, -1.0, 1.0);
   EXPECT_LT((multiply(A, x) - dense(A) * x).norm(), kRounding * x.norm());
   EXPECT_LT((dense(multiply(A, B)) - dense(A) * dense(B)).cwiseAbs().maxCoeff(), kRounding);
-  EXPECT_EQ(dense(transpose(A)), dense(A).transpose());
   const SingleBlockRows S = in_single_precision(B);
-  EXPECT_LT((dense(multiply(A, S)) - dense(A) * dense(S)).cwiseAbs().maxCoeff(), kRounding);
   EXPECT_EQ(dense(transpose(S)), dense(S).transpose());
+  const BlockRows square = random_rows(20, 20, 5);
+  const Eigen::MatrixXd expected = dense(S).transpose() * dense(square) * dense(S);
+  EXPECT_LT((dense(galerkin_product(square, S, transpose(S))) - expected).cwiseAbs().maxCoeff(),
+            kRounding * expected.cwiseAbs().maxCoeff());
 }
 
 // Scaling by blocks commutes with the sum over contacts up to the rounding of their terms.
@@ -86,20 +88,23 @@ TEST(BlockRows, ContainBothTriangles) {
   EXPECT_LT((multiply(A, x) - y).norm(), kRounding * y.norm());
 }
 
-// 3,200 blocks: enough work for a second thread in the product of the matrix with itself.
+// 4,800 blocks: enough work for a second thread in the product of the matrix with itself, and more rows than
+// the product with two matrices takes at once.
 TEST(BlockRows, GiveTheSameBitsForAnyNumberOfThreads) {
-  const ContactProblem p = scenes::dome({.rings = 50, .blocks_per_ring = 64}, 1.0, {});
+  const ContactProblem p = scenes::dome({.rings = 75, .blocks_per_ring = 64}, 1.0, {});
   const ContactGraph graph = contact_graph(p);
   const BlockRows A = both_triangles(
       graph.pattern, assemble_hessian(p, graph, std::vector<Mat3>(p.num_contacts(), Mat3::Identity())));
   const VecX x = VecX::LinSpaced(6 * p.num_blocks(), -1.0, 1.0);
-  const BlockRows alone = multiply(A, A);
+  const SingleBlockRows S = in_single_precision(A), S_transposed = transpose(S);
+  const BlockRows alone = multiply(A, A), galerkin = galerkin_product(A, S, S_transposed);
   for (const int threads : {2, 3}) {
     set_num_threads(threads);
     const BlockRows together = multiply(A, A);
     EXPECT_EQ(together.column, alone.column);
     EXPECT_EQ(together.value, alone.value);
     EXPECT_EQ(multiply(together, x), multiply(alone, x));
+    EXPECT_EQ(galerkin_product(A, S, S_transposed).value, galerkin.value);
   }
   set_num_threads(1);
 }
