@@ -54,10 +54,15 @@ bool NewtonDirection::solve_directly(const BlockPattern& pattern, const BlockMat
 bool NewtonDirection::solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                    double forcing, VecX* d, SolveSummary* summary) {
   constexpr int kMaxIterations = 25;  // about the cost of a factorisation at 1,000 blocks
+  constexpr int kWorn = 12;           // chosen: in motions a factor of the last steps leads to 3 to 8
   if (!factor_.has_factor() || factor_.pattern() != pattern) return false;
-  return conjugate_gradients([&](const VecX& x) { return multiply(pattern, H, x); },
-                             [&](const VecX& r) { return factor_.solve_approximately(r); }, rhs, forcing,
-                             kMaxIterations, d, summary) <= forcing;
+  const int before = summary->conjugate_gradients;
+  const bool solved = conjugate_gradients([&](const VecX& x) { return multiply(pattern, H, x); },
+                                          [&](const VecX& r) { return factor_.solve_approximately(r); }, rhs,
+                                          forcing, kMaxIterations, d, summary) <= forcing;
+  // The next solves would take as many: a new factor pays within two or three of them.
+  if (summary->conjugate_gradients - before > kWorn) factor_ = {};
+  return solved;
 }
 
 bool NewtonDirection::solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,

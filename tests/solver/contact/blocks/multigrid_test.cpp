@@ -176,6 +176,28 @@ TEST(NewtonDirection, IsZeroForAZeroRightHandSide) {
   EXPECT_EQ(summary.conjugate_gradients, 0);
 }
 
+TEST(NewtonDirection, DropsAFactorThatCosts) {
+  const System s = system_of(scenes::dome({.rings = 12, .blocks_per_ring = 16}, 0.03, kJoint));
+  std::vector<Mat3> G;
+  for (int i = 0; i < s.problem.num_contacts(); ++i)
+    G.push_back(i % 2 == 0 ? Mat3(Mat3::Zero())
+                           : contact_stiffness(contact_law(s.problem, i), -Vec3::UnitX()));
+  const BlockMatrix opened = assemble_hessian(s.white.problem, s.graph, G);
+  const VecX rhs = some_vector(s.problem.num_blocks());
+  NewtonDirection direction;
+  SolveSummary summary;
+  VecX d;
+  const auto lagged = [&](const BlockMatrix& H) {
+    return direction.solve_lagged(s.graph.pattern, H, rhs, 1e-3, &d, &summary);
+  };
+  ASSERT_TRUE(direction.solve_directly(s.graph.pattern, s.H, rhs, &d, &summary));
+  for (int k = 0; k < 5; ++k) EXPECT_TRUE(lagged(s.H)) << "the factor of the matrix itself is kept";
+  const int before = summary.conjugate_gradients;
+  EXPECT_TRUE(lagged(opened));
+  EXPECT_GT(summary.conjugate_gradients - before, 12) << "with every second contact open it serves badly";
+  EXPECT_FALSE(lagged(opened)) << "and is dropped";
+}
+
 /// Compares forces found with multigrid to those found with factors.
 void expect_same_forces(const ContactProblem& problem) {
   SolveOptions options;
