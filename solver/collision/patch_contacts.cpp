@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -244,7 +245,7 @@ void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, Anch
   CUPOLA_ASSERT(contacts->patch_polygons.size() == contacts->set.patches.size());
   std::vector<Mat3> R_WB(poses.size());
   for (const int b : moved.blocks) R_WB[b] = poses[b].q_WB.toRotationMatrix();
-  for (const int i : moved.contacts) {
+  const auto move_contact = [&](int i) {
     const ContactAnchor& anchor = contacts->anchors[i];
     Contact& contact = contacts->set.points[i];
     const int a = contact.block_a;
@@ -258,7 +259,12 @@ void move_contacts(std::span<const Pose> poses, const MovedContacts& moved, Anch
                          .normalized();
     // Subtracting the centroids first keeps the precision that the points lose far from the origin.
     contact.gap = contact.normal.dot((poses[b].p_WB - poses[a].p_WB) + (r_b - r_a)) - anchor.rest_gap;
-  }
+  };
+  constexpr double kOperationsPerContact = 150.0;
+  const int count = static_cast<int>(moved.contacts.size());
+  share_sums(kOperationsPerContact * count, count, [&](int first, int last) {
+    for (int k = first; k < last; ++k) move_contact(moved.contacts[k]);
+  });
   for (const int p : moved.patches) {
     Patch& patch = contacts->set.patches[p];
     patch.polygon.clear();

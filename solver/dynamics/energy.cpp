@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 
@@ -41,14 +42,20 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
     energy.kinetic += 0.5 * v.dot(mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB) * v);
   }
   CUPOLA_ASSERT(memories.ids.size() == contacts.points.size());
-  for (size_t i = 0; i < contacts.points.size(); ++i) {
-    const JointLaw law = joint_law(model, contacts, contacts.points[i], state.time);
-    const ContactMemory& memory = memories.of(i);
-    if (law.compliance_normal > 0.0)
-      energy.elastic += 0.5 * memory.elastic_gap * memory.elastic_gap / law.compliance_normal;
-    if (law.compliance_tangential > 0.0)
-      energy.elastic += 0.5 * memory.elastic_slip_A.squaredNorm() / law.compliance_tangential;
-  }
+  constexpr double kOperationsPerContact = 50.0;
+  const auto nc = static_cast<int>(contacts.points.size());
+  std::vector<double> stored(contacts.points.size(), 0.0);  // J, of each contact
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const JointLaw law = joint_law(model, contacts, contacts.points[i], state.time);
+      const ContactMemory& memory = memories.of(i);
+      if (law.compliance_normal > 0.0)
+        stored[i] += 0.5 * memory.elastic_gap * memory.elastic_gap / law.compliance_normal;
+      if (law.compliance_tangential > 0.0)
+        stored[i] += 0.5 * memory.elastic_slip_A.squaredNorm() / law.compliance_tangential;
+    }
+  });
+  for (const double value : stored) energy.elastic += value;
   return energy;
 }
 

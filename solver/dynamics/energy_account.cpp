@@ -4,9 +4,12 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/energy.hpp"
+#include "solver/runtime/ordered_sum.hpp"
 
 namespace cupola {
 namespace {
+
+constexpr double kAccountOperationsPerContact = 50.0;
 
 /// m/N of a row: E = c / (impulse_time (reach + alpha)).
 double compliance(const StepProblem& step, Eigen::Index row, const StepOptions& options) {
@@ -15,14 +18,17 @@ double compliance(const StepProblem& step, Eigen::Index row, const StepOptions& 
 
 std::vector<double> spring_energies(const StepProblem& step, const ContactMemories& memories,
                                     const StepOptions& options) {
+  const auto nc = static_cast<int>(memories.ids.size());
   std::vector<double> energies(memories.ids.size(), 0.0);
-  for (size_t i = 0; i < energies.size(); ++i) {
-    const auto row = 3 * static_cast<Eigen::Index>(i);
-    const ContactMemory& memory = memories.of(i);
-    const double normal = compliance(step, row, options), tangential = compliance(step, row + 1, options);
-    if (normal > 0.0) energies[i] += 0.5 * memory.elastic_gap * memory.elastic_gap / normal;
-    if (tangential > 0.0) energies[i] += 0.5 * memory.elastic_slip_A.squaredNorm() / tangential;
-  }
+  share_sums(kAccountOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const Eigen::Index row = 3 * i;
+      const ContactMemory& memory = memories.of(i);
+      const double normal = compliance(step, row, options), tangential = compliance(step, row + 1, options);
+      if (normal > 0.0) energies[i] += 0.5 * memory.elastic_gap * memory.elastic_gap / normal;
+      if (tangential > 0.0) energies[i] += 0.5 * memory.elastic_slip_A.squaredNorm() / tangential;
+    }
+  });
   return energies;
 }
 
@@ -62,7 +68,8 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
   const VecX p = step.past_impulse.size() > 0 ? VecX(solution.gamma + step.past_impulse) : solution.gamma;
   const std::vector<double> springs = spring_energies(step, memories, options);
   work->supports = -p.dot(step.support_velocity);
-  for (int i = 0; i < step.num_contacts; ++i) {
+  const int nc = step.num_contacts;
+  *work = sum_in_order(kAccountOperationsPerContact * nc, nc, *work, [&](int i) {
     const Eigen::Index row = 3 * i;
     const Vec3 gamma = solution.gamma.segment<3>(row);
     const JointWork joint = joint_work(step, i, gamma, z.segment<3>(row));
@@ -71,13 +78,15 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
       damping += damping_work(step, row + k, u_el[row + k], options);
     const double taken = -p.segment<3>(row).dot(mean.segment<3>(row));
     const double lost = taken - joint.friction + joint.dilatancy - damping - (springs[i] - start.springs[i]);
-    work->friction += joint.friction;
-    work->dilatancy += joint.dilatancy;
-    work->damping += damping;
     const double approach_per_step = options.h * (u_start[row] + step.support_velocity[row]);
     const bool closes = gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i];
-    (closes ? work->impact : work->scheme) += lost;
-  }
+    StepWork term;
+    term.friction = joint.friction;
+    term.dilatancy = joint.dilatancy;
+    term.damping = damping;
+    (closes ? term.impact : term.scheme) = lost;
+    return term;
+  });
   for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie) {
     const Eigen::Index row = 3 * tie;
     const double damping = solution.gamma[row] == 0.0 ? 0.0 : damping_work(step, row, u_el[row], options);

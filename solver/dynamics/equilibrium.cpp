@@ -4,6 +4,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/time_step.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -46,12 +47,15 @@ Equilibrium combine(const Equilibrium& a, const Equilibrium& b) {
 
 JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, const VecX& impulse_time) {
   JointForces forces;
-  const auto nc = static_cast<Eigen::Index>(contacts.points.size());
+  constexpr double kOperationsPerContact = 60.0;
+  const auto nc = static_cast<int>(contacts.points.size());
   CUPOLA_ASSERT(gamma.size() >= 3 * nc && gamma.size() % 3 == 0 && impulse_time.size() == gamma.size());
   forces.contacts.resize(contacts.points.size());
-  for (Eigen::Index i = 0; i < nc; ++i)
-    forces.contacts[i] =
-        contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / impulse_time[3 * i];
+  share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i)
+      forces.contacts[i] =
+          contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / impulse_time[3 * i];
+  });
   for (Eigen::Index row = 3 * nc; row < gamma.size(); row += 3)
     forces.ties.push_back(gamma[row] / impulse_time[row]);
   return forces;

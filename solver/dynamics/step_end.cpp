@@ -4,6 +4,7 @@
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/known_motion.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 
@@ -63,7 +64,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
   const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
   const double h = options.reach();
   std::vector<ContactMemory>& values = memories->stored();
-  for (int i = 0; i < step.num_contacts; ++i) {
+  const auto update = [&](int i) {
     const Contact& contact = contacts.points[i];
     ContactMemory& memory = values[i];
     const Mat3 R_WC = contact_frame(contact.normal);
@@ -88,11 +89,15 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     const Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
     memory.elastic_slip_A = state.poses[contact.block_a].q_WB.conjugate() * (R_WC * slip_C);
     if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
-    if (options.integrator.is_euler()) continue;
+    if (options.integrator.is_euler()) return;
     const Vec3 force_C = gamma / step.impulse_time[3 * i];
     update_past(state.poses[contact.block_a].q_WB.conjugate() * (R_WC * force_C),
                 contact.gap + rest + h * u[3 * i], options, &memory);
-  }
+  };
+  constexpr double kOperationsPerContact = 200.0;
+  share_range(kOperationsPerContact * step.num_contacts, step.num_contacts, [&](int first, int last) {
+    for (int i = first; i < last; ++i) update(i);
+  });
   memories->ties.resize(model.ties.size());
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const int row = step.num_contacts + static_cast<int>(k);
@@ -138,8 +143,11 @@ ContactSolution warm_start(const StepProblem& step, const State& state, const Co
   ContactSolution guess;
   guess.v = state.v;
   guess.gamma = VecX::Zero(step.problem.b.size());
-  for (int i = 0; i < step.num_contacts; ++i)
-    guess.gamma.segment<3>(3 * i) = in_present_frame(memories.of(i), contacts.points[i], state);
+  constexpr double kOperationsPerContact = 100.0;
+  share_sums(kOperationsPerContact * step.num_contacts, step.num_contacts, [&](int first, int last) {
+    for (int i = first; i < last; ++i)
+      guess.gamma.segment<3>(3 * i) = in_present_frame(memories.of(i), contacts.points[i], state);
+  });
   for (size_t k = 0; k < memories.ties.size(); ++k)
     guess.gamma[3 * (step.num_contacts + static_cast<int>(k))] = memories.ties[k].impulse;
   return guess;

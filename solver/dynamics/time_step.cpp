@@ -49,7 +49,7 @@ void set_row(const Model& model, const State& state, int row, int block_a, int b
 void set_rows(const Model& model, const State& state, const ContactSet& contacts, StepProblem* step) {
   constexpr double kOperationsPerContact = 200.0;
   const auto nc = static_cast<int>(contacts.points.size());
-  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+  share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       const Contact& contact = contacts.points[i];
       CUPOLA_ASSERT(contact.block_a < contact.block_b);
@@ -132,7 +132,7 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
   const double h_alpha = options.damped_reach();
   const double end = state.time + options.advance();
   ContactProblem* problem = &step->problem;
-  for (int i = 0; i < step->num_contacts; ++i) {
+  const auto set_law = [&](int i) {
     const Contact& contact = contacts.points[i];
     const ContactMemory& memory = memories.of(i);
     const Mat3 R_WC = contact_frame(contact.normal);
@@ -164,7 +164,11 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
       if (smooth) slip_C += known.to_middle + known.rest;
       problem->b.segment<2>(3 * i + 1) = slip_C.tail<2>() / h_alpha;
     }
-  }
+  };
+  constexpr double kOperationsPerContact = 150.0;
+  share_range(kOperationsPerContact * step->num_contacts, step->num_contacts, [&](int first, int last) {
+    for (int i = first; i < last; ++i) set_law(i);
+  });
 }
 
 void set_tie_laws(const Model& model, const State& state, const ContactMemories& memories,

@@ -2,11 +2,14 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "solver/runtime/ordered_sum.hpp"
 
 namespace cupola::threads_test {
 namespace {
@@ -60,6 +63,17 @@ TEST_F(Teams, OfTwoThreadsAtOnceEndBoth) {
   };
   { const std::jthread first(add), second(add); }
   EXPECT_EQ(sum, 2 * 100 * 4950);
+}
+
+TEST_F(Teams, SumInOrder) {
+  constexpr int kTerms = 10007;
+  const auto term = [](int i) { return std::sin(1.0 + i) * std::pow(10.0, i % 17); };
+  double expected = 0.1;
+  for (int i = 0; i < kTerms; ++i) expected += term(i);
+  for (const int threads : {1, 2, 3, 8}) {
+    set_num_threads(threads);
+    EXPECT_EQ(sum_in_order(kWork, kTerms, 0.1, term), expected) << threads << " threads: not the same bits";
+  }
 }
 
 TEST_F(Teams, WorkAgainAfterAnException) {

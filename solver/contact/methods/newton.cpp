@@ -25,7 +25,7 @@ std::vector<Mat3> stiffnesses(const ContactProblem& p, const VecX& y) {
   constexpr double kOperationsPerContact = 100.0;
   const int nc = p.num_contacts();
   std::vector<Mat3> G(nc);
-  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+  share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
     for (int i = first; i < last; ++i) G[i] = contact_stiffness(contact_law(p, i), y.segment<3>(3 * i));
   });
   return G;

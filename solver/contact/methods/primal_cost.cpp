@@ -14,6 +14,14 @@ namespace {
 
 constexpr double kOperationsPerContact = 150.0;
 
+/// 1/2 gamma^T E gamma - gamma . z of one contact.
+double contact_cost(const ContactProblem& p, int i, const Vec3& y, const Vec3& gamma) {
+  double cost = 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
+  if (contact_law(p, i).carries_shear()) cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
+  if (!p.strength.empty()) cost -= gamma.dot(y + p.E.segment<3>(3 * i).cwiseProduct(gamma));
+  return cost;
+}
+
 }  // namespace
 
 PrimalPoint primal_point(const ContactProblem& p, VecX w) {
@@ -24,6 +32,7 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   point.gamma.resize(p.b.size());
   const VecX momentum = point.w - p.v_star;
   VecX impulse = VecX::Zero(momentum.size());
+  VecX costs(p.num_contacts());
   // One pass, because reading D dominates the cost.
   share_sums(kOperationsPerContact * p.num_contacts(), p.num_blocks(), [&](int first, int last) {
     const auto in_range = [&](int block) { return first <= block && block < last; };
@@ -37,16 +46,11 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
       if (!in_range(a != ContactProblem::kFixed ? a : b)) continue;
       point.y.segment<3>(3 * i) = y;
       point.gamma.segment<3>(3 * i) = gamma;
+      costs[i] = contact_cost(p, i, y, gamma);
     }
   });
   point.cost = 0.5 * momentum.squaredNorm();
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    const Vec3 gamma = point.gamma.segment<3>(3 * i);
-    point.cost += 0.5 * p.E[3 * i] * gamma[0] * gamma[0];
-    if (contact_law(p, i).carries_shear()) point.cost += 0.5 * p.E[3 * i + 1] * gamma.tail<2>().squaredNorm();
-    if (!p.strength.empty())
-      point.cost -= gamma.dot(point.y.segment<3>(3 * i) + p.E.segment<3>(3 * i).cwiseProduct(gamma));
-  }
+  for (const double cost : costs) point.cost += cost;  // in order: the same bits for any number of threads
   point.gradient = momentum - impulse;
   for (int k = 0; k < p.num_blocks(); ++k) {
     const double norm = point.gradient.segment<6>(6 * k).norm();
@@ -76,7 +80,7 @@ class Line {
   };
   Derivatives at(double t) {
     const int nc = p_.num_contacts();
-    share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
       for (int i = first; i < last; ++i) {
         const Vec3 dy = dy_.segment<3>(3 * i);
         const ContactResponse contact =

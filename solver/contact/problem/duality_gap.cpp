@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/ordered_sum.hpp"
 
 namespace cupola {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr double kMachineEps = std::numeric_limits<double>::epsilon();
+constexpr double kGapOperationsPerContact = 100.0, kGapOperationsPerBlock = 500.0;
 
 /// Bounds of the rounding errors in the terms of the gap.
 class RoundingBounds {
@@ -47,28 +49,34 @@ void RoundingBounds::add_momentum() {
   for (int i = 0; i < p_.num_contacts(); ++i)
     for (const int k : {p_.block_a[i], p_.block_b[i]})
       if (k != ContactProblem::kFixed) terms[k] += 3;
-  for (int i = 0; i < p_.num_contacts(); ++i) {
-    const Vec3 gamma = x_.gamma.segment<3>(3 * i);
-    const Vec3 change = uncertainty(contact_law(p_, i), gamma);
-    const auto add = [&](int k, const Mat63& D) {
-      if (k == ContactProblem::kFixed) return;
-      error[k] += D.cwiseAbs() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
-    };
-    add(p_.block_a[i], p_.D_a[i]);
-    add(p_.block_b[i], p_.D_b[i]);
-  }
-  for (int k = 0; k < p_.num_blocks(); ++k) {
-    const Vec6 change = (x_.v - p_.v_star).segment<6>(6 * k);
-    error[k] += 0.5 * kMachineEps * terms[k] * (p_.M[k].cwiseAbs() * change.cwiseAbs());
+  const int nb = p_.num_blocks(), nc = p_.num_contacts();
+  share_sums(kGapOperationsPerContact * nc, nb, [&](int first, int last) {
+    const auto in_range = [&](int block) { return first <= block && block < last; };  // false for kFixed
+    for (int i = 0; i < nc; ++i) {
+      if (!in_range(p_.block_a[i]) && !in_range(p_.block_b[i])) continue;
+      const Vec3 gamma = x_.gamma.segment<3>(3 * i);
+      const Vec3 change = uncertainty(contact_law(p_, i), gamma);
+      const auto add = [&](int k, const Mat63& D) {
+        if (in_range(k))
+          error[k] += D.cwiseAbs() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
+      };
+      add(p_.block_a[i], p_.D_a[i]);
+      add(p_.block_b[i], p_.D_b[i]);
+    }
+  });
+  squared_ = sum_in_order(kGapOperationsPerBlock * nb, nb, squared_, [&](int k) {
+    const Vec6 change = x_.v.segment<6>(6 * k) - p_.v_star.segment<6>(6 * k);
+    const Vec6 whole = error[k] + 0.5 * kMachineEps * terms[k] * (p_.M[k].cwiseAbs() * change.cwiseAbs());
     const Mat6 L_inverse = p_.M[k].llt().matrixL().solve(Mat6::Identity());
-    squared_ += (L_inverse.cwiseAbs() * error[k]).squaredNorm();
-  }
+    return (L_inverse.cwiseAbs() * whole).squaredNorm();
+  });
 }
 
 /// The norm of E^-1 of the error of y = D^T v + b, and the norm of E of the error of gamma.
 void RoundingBounds::add_contacts() {
   constexpr int kTerms = 16;  // of y: six per block, b, and the evaluation of the contact law
-  for (int i = 0; i < p_.num_contacts(); ++i) {
+  const int nc = p_.num_contacts();
+  squared_ = sum_in_order(kGapOperationsPerContact * nc, nc, squared_, [&](int i) {
     Vec3 speed = p_.b.segment<3>(3 * i).cwiseAbs();
     const auto add = [&](int k, const Mat63& D) {
       if (k != ContactProblem::kFixed) speed += D.cwiseAbs().transpose() * x_.v.segment<6>(6 * k).cwiseAbs();
@@ -81,12 +89,12 @@ void RoundingBounds::add_contacts() {
     const Vec3 error = 0.5 * kMachineEps * kTerms * speed;
     const Vec3 y = relative_velocity(p_, i, x_.v) + p_.b.segment<3>(3 * i);
     const double opening = y[0] - law.mu * y.tail<2>().norm();
-    if (gamma.isZero(0.0) && opening > error[0] + law.mu * error.tail<2>().norm()) continue;
+    if (gamma.isZero(0.0) && opening > error[0] + law.mu * error.tail<2>().norm()) return 0.0;
     const double e_t = law.carries_shear() ? law.e_t : law.e_n;
     const Vec3 E(law.e_n, e_t, e_t);
-    squared_ += error.cwiseAbs2().cwiseQuotient(E).sum();
-    squared_ += uncertainty(law, gamma).cwiseAbs2().cwiseProduct(E).sum();
-  }
+    return error.cwiseAbs2().cwiseQuotient(E).sum() +
+           uncertainty(law, gamma).cwiseAbs2().cwiseProduct(E).sum();
+  });
 }
 
 }  // namespace
@@ -120,16 +128,17 @@ double contact_duality_gap(const ContactLaw& law, const Vec3& y, const Vec3& gam
 }
 
 double duality_gap(const ContactProblem& p, const ContactSolution& x) {
-  const VecX y = relative_velocity(p, x.v) + p.b;
+  const int nb = p.num_blocks(), nc = p.num_contacts();
   const VecX impulse = generalized_impulse(p, x.gamma);
-  double gap = 0.0;
-  for (int k = 0; k < p.num_blocks(); ++k) {
-    const Vec6 r = p.M[k] * (x.v - p.v_star).segment<6>(6 * k) - impulse.segment<6>(6 * k);
-    gap += 0.5 * p.M[k].llt().matrixL().solve(r).squaredNorm();
-  }
-  for (int i = 0; i < p.num_contacts(); ++i)
-    gap += contact_duality_gap(contact_law(p, i), y.segment<3>(3 * i), x.gamma.segment<3>(3 * i));
-  return gap;
+  const double of_blocks = sum_in_order(kGapOperationsPerBlock * nb, nb, 0.0, [&](int k) {
+    const Vec6 change = x.v.segment<6>(6 * k) - p.v_star.segment<6>(6 * k);
+    const Vec6 r = p.M[k] * change - impulse.segment<6>(6 * k);
+    return 0.5 * p.M[k].llt().matrixL().solve(r).squaredNorm();
+  });
+  return sum_in_order(kGapOperationsPerContact * nc, nc, of_blocks, [&](int i) {
+    const Vec3 y = relative_velocity(p, i, x.v) + p.b.segment<3>(3 * i);
+    return contact_duality_gap(contact_law(p, i), y, x.gamma.segment<3>(3 * i));
+  });
 }
 
 double compliance_norm(const ContactProblem& problem, const VecX& gamma) {

@@ -10,8 +10,18 @@
 #include "assembly/base/error.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/duality_gap.hpp"
+#include "solver/runtime/ordered_sum.hpp"
 
 namespace cupola {
+
+namespace {
+
+/// Floating-point operations of a pass over so many contacts.
+double pass_over(int contacts) {
+  return 100.0 * contacts;
+}
+
+}  // namespace
 
 VecX delassus_traces(const ContactProblem& p) {
   std::vector<Mat6> inverse(p.M.size());
@@ -36,48 +46,57 @@ VecX rigid_metrics(const ContactProblem& p) {
   return first_rigid_contact(p) ? delassus_traces(p) : VecX();
 }
 
-/// Visits every contact with its impulse, the impulse that its law gives, and the metric of the projection:
-/// visit(i, gamma, expected, rigid metric or 0).
-template <class Visit>
-void for_each_expected_impulse(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
-                               const VecX& rigid_metrics, Visit visit) {
-  const VecX y0 = relative_velocity(p, x.v) + p.b;
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    const Vec3 gamma = x.gamma.segment<3>(3 * i);
-    Vec3 y = y0.segment<3>(3 * i);
-    ContactLaw law = contact_law(p, i);
-    const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
-    if (!kind.is_associated()) y[0] += (1.0 - kind.dilatancy) * law.mu * (y + elastic).tail<2>().norm();
-    double rigid_metric = 0.0;
-    if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
-      rigid_metric = law.e_n = law.e_t = rigid_metrics[i];
-      y += elastic - law.e_n * gamma;
-    }
-    visit(i, gamma, contact_impulse(law, y), rigid_metric);
+/// The impulse that the law of a contact gives, and the metric of the projection, 0 if it is not rigid.
+struct ExpectedImpulse {
+  Vec3 gamma;
+  double rigid_metric;
+};
+ExpectedImpulse expected_impulse(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
+                                 const VecX& rigid_metrics, int i) {
+  const Vec3 gamma = x.gamma.segment<3>(3 * i);
+  Vec3 y = relative_velocity(p, i, x.v) + p.b.segment<3>(3 * i);
+  ContactLaw law = contact_law(p, i);
+  const Vec3 elastic(law.e_n * gamma[0], law.e_t * gamma[1], law.e_t * gamma[2]);
+  if (!kind.is_associated()) y[0] += (1.0 - kind.dilatancy) * law.mu * (y + elastic).tail<2>().norm();
+  double rigid_metric = 0.0;
+  if (is_rigid(law)) {  // gamma - rho (y + E gamma) as the impulse of a contact of compliance 1/rho
+    rigid_metric = law.e_n = law.e_t = rigid_metrics[i];
+    y += elastic - law.e_n * gamma;
   }
+  return {contact_impulse(law, y), rigid_metric};
 }
+
+struct LawErrors {
+  double squared_error = 0.0, squared_expected = 0.0;
+  double speed = 0.0;  ///< of rigid contacts, largest
+  LawErrors& operator+=(const LawErrors& other) {
+    squared_error += other.squared_error;
+    squared_expected += other.squared_expected;
+    speed = std::max(speed, other.speed);
+    return *this;
+  }
+};
 
 /// Sets contact_law and rigid_contact_speed.
 void measure_contact_law(const ContactProblem& p, const ContactSolution& x, const FlowRule& kind,
                          const VecX& rigid_metrics, double reference_speed, Residuals* residuals) {
-  double squared_error = 0.0, squared_expected = 0.0;
-  const auto add = [&](int, const Vec3& gamma, const Vec3& expected, double rigid_metric) {
-    const double error = (gamma - expected).norm();
-    squared_error += error * error;
-    squared_expected += expected.squaredNorm();
-    residuals->rigid_contact_speed =
-        std::max(residuals->rigid_contact_speed, rigid_metric * error / reference_speed);
-  };
-  for_each_expected_impulse(p, x, kind, rigid_metrics, add);
-  if (squared_error == 0.0) return;
-  residuals->contact_law = std::sqrt(squared_error) / std::max(x.gamma.norm(), std::sqrt(squared_expected));
+  const int nc = p.num_contacts();
+  const LawErrors sum = sum_in_order(pass_over(nc), nc, LawErrors{}, [&](int i) {
+    const auto [expected, rigid_metric] = expected_impulse(p, x, kind, rigid_metrics, i);
+    const double error = (x.gamma.segment<3>(3 * i) - expected).norm();
+    return LawErrors{error * error, expected.squaredNorm(), rigid_metric * error / reference_speed};
+  });
+  residuals->rigid_contact_speed = sum.speed;
+  if (sum.squared_error == 0.0) return;
+  residuals->contact_law =
+      std::sqrt(sum.squared_error) / std::max(x.gamma.norm(), std::sqrt(sum.squared_expected));
 }
 
 double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, const VecX& rigid_metrics) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
-  double squared = 0.0;
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;  // open: gamma = 0 exactly
+  const int nc = p.num_contacts();
+  const double squared = sum_in_order(pass_over(nc), nc, 0.0, [&](int i) {
+    if (x.gamma.segment<3>(3 * i).isZero(0.0)) return 0.0;  // open: gamma = 0 exactly
     double speed = p.b.segment<3>(3 * i).norm();
     const auto add = [&](int k, const Mat63& D) {
       if (k != ContactProblem::kFixed)
@@ -87,8 +106,8 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, c
     add(p.block_b[i], p.D_b[i]);
     const ContactLaw law = contact_law(p, i);
     const double compliance = is_rigid(law) ? rigid_metrics[i] : law.e_n;
-    squared += std::pow(kEps * speed / compliance, 2);
-  }
+    return std::pow(kEps * speed / compliance, 2);
+  });
   return squared > 0.0 ? std::sqrt(squared) / x.gamma.norm() : 0.0;
 }
 
@@ -131,11 +150,15 @@ double law_tolerance(const Residuals& residuals, double tolerance) {
 }  // namespace
 
 VecX contact_law_errors(const ContactProblem& problem, const ContactSolution& solution, const FlowRule& law) {
-  VecX errors(problem.num_contacts());
-  for_each_expected_impulse(problem, solution, law, rigid_metrics(problem),
-                            [&errors](int i, const Vec3& gamma, const Vec3& expected, double) {
-                              errors[i] = (gamma - expected).norm();
-                            });
+  const int nc = problem.num_contacts();
+  const VecX metrics = rigid_metrics(problem);
+  VecX errors(nc);
+  share_sums(pass_over(nc), nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const Vec3 expected = expected_impulse(problem, solution, law, metrics, i).gamma;
+      errors[i] = (solution.gamma.segment<3>(3 * i) - expected).norm();
+    }
+  });
   return errors;
 }
 

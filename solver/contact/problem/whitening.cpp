@@ -61,7 +61,7 @@ WhitenedProblem whiten(const ContactProblem& problem) {
   p.D_a.resize(nc);
   p.D_b.resize(nc);
   constexpr double kOperationsPerContact = 400.0;
-  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+  share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
     for (int i = first; i < last; ++i) {
       const int a = p.block_a[i], b = p.block_b[i];
       if (a != ContactProblem::kFixed) p.D_a[i] = white.L_inverse[a].lazyProduct(problem.D_a[i]);
