@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "solver/collision/collision_model.hpp"
@@ -80,9 +79,6 @@ class ContactDetector {
 
   /// Contacts at the poses of the last update.
   const ContactSet& contacts() const { return memory_.contacts.set; }
-
-  /// The same, moved out of a detector that has no further use.
-  ContactSet take_contacts() && { return std::move(memory_.contacts.set); }
 
   /// For checkpoints.
   const DetectionMemory& memory() const { return memory_; }
