@@ -63,7 +63,7 @@ def main():
           "ratio on 64 with this memory (estimate)")
     for work, *inputs in WORKS:
         one, two, both = measure(programs, folder, *inputs)
-        c = min(max(both / one, 1.0), 1.9)
+        c = min(max(both / one, 1.0), 1.9)  # noise below 1; at 2 two threads could gain nothing, and s were unknown
         rest = min(max((two - c * one / 2) / (1 - c / 2), 0.0), one)
 
         def faster(p, slower):

@@ -75,13 +75,13 @@ ContactProblem problem_of(const ContactProblem& whole, const std::vector<int>& b
 void settle_around(const ContactProblem& whole, const std::vector<int>& new_blocks,
                    ContactSolverOptions options, VecX* v) {
   constexpr int kReach = 5;            // of a dome of 512 blocks some 46
-  constexpr int kSmallestShare = 3;    // of the whole structure; a larger part does not pay
+  constexpr int kShare = 3;            // at most a third of all blocks: a larger part does not pay
   constexpr double kTolerance = 1e-3;  // of a start
   const std::vector<char> marked = blocks_around(whole, new_blocks, kReach);
   std::vector<int> blocks;
   for (int block = 0; block < whole.num_blocks(); ++block)
     if (marked[block] != 0) blocks.push_back(block);
-  if (kSmallestShare * std::ssize(blocks) > whole.num_blocks()) return;
+  if (kShare * std::ssize(blocks) > whole.num_blocks()) return;
   options.tolerance = std::max(options.tolerance, kTolerance);
   options.lag_factor = true;
   ContactSolution part{choose(*v, blocks, 6), {}};
