@@ -6,7 +6,10 @@
 #include <malloc.h>
 #include <sys/mman.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+
+extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
 
 namespace cupola {
 
@@ -27,6 +30,14 @@ bool has_room_for_blas(int threads) {
   return static_cast<int>(probes.size()) == threads;
 }
 
+/// Makes OpenBLAS map the buffer of this thread while there is room: a call that needs one and costs nothing.
+void claim_blas_buffer() {
+  const int one = 1;
+  double a = 1.0;
+  int info = 0;
+  dpotrf_("L", &one, &a, &one, &info);
+}
+
 }  // namespace
 
 int num_threads() {
@@ -45,11 +56,11 @@ void release_freed_memory() {
 
 void set_num_threads(int count) {
   CUPOLA_ASSERT(count >= 1);
-  if (count > 1 && !has_room_for_blas(count))
+  if (!has_room_for_blas(count))
     throw SystemError(
-        fmt::format("out of memory: {} threads require {} MB of address space; use fewer threads or raise "
-                    "the limit (ulimit -v)",
-                    count, 144 * count));
+        fmt::format("out of memory: {} MB of address space required for {}; raise the limit (ulimit -v){}",
+                    144 * count, counted(count, "thread"), count > 1 ? " or use fewer threads" : ""));
+  claim_blas_buffer();
 #ifdef __GLIBC__
   // One heap for all threads: that of the program, whose freed memory is kept, on large pages. The heaps that
   // threads get otherwise return theirs to the system again and again: staged runs took a third more time.
