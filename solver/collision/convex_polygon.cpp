@@ -13,28 +13,30 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Clips a polygon to the left side of the line from p to q. `edge` is the label of that line.
-std::vector<ClipCorner> clip_by_line(const std::vector<ClipCorner>& polygon, const Vec2& p, const Vec2& q,
-                                     int edge, double tolerance) {
-  std::vector<ClipCorner> kept;
+/// Clips a polygon to the left side of the line from p to q. `edge` is the label of that line; `heights` and
+/// `kept` are memory that all lines use.
+void clip_by_line(std::vector<ClipCorner>* polygon, const Vec2& p, const Vec2& q, int edge, double tolerance,
+                  std::vector<double>* heights, std::vector<ClipCorner>* kept) {
   const double length = (q - p).norm();
-  if (length <= tolerance) return polygon;
+  if (length <= tolerance) return;
   const Vec2 direction = (q - p) / length;
-  const auto height = [&](const ClipCorner& c) { return cross(direction, c.position - p); };
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const ClipCorner& start = polygon[i];
-    const ClipCorner& end = polygon[(i + 1) % polygon.size()];
-    const double start_height = height(start);
-    const double end_height = height(end);
-    const bool start_inside = start_height >= -tolerance;
-    const bool end_inside = end_height >= -tolerance;
-    if (start_inside) kept.push_back(start);
-    if (start_inside == end_inside) continue;
+  const auto inside = [&](double height) { return height >= -tolerance; };
+  heights->clear();
+  for (const ClipCorner& c : *polygon) heights->push_back(cross(direction, c.position - p));
+  if (std::ranges::all_of(*heights, inside)) return;
+  kept->clear();
+  for (std::size_t i = 0; i < polygon->size(); ++i) {
+    const std::size_t next = (i + 1) % polygon->size();
+    const ClipCorner& start = (*polygon)[i];
+    const double start_height = (*heights)[i], end_height = (*heights)[next];
+    const bool start_inside = inside(start_height);
+    if (start_inside) kept->push_back(start);
+    if (start_inside == inside(end_height)) continue;
     const double fraction = std::clamp(start_height / (start_height - end_height), 0.0, 1.0);
-    const Vec2 crossing = start.position + fraction * (end.position - start.position);
-    kept.push_back({crossing, 0, start_inside ? edge : start.edge_out});
+    const Vec2 crossing = start.position + fraction * ((*polygon)[next].position - start.position);
+    kept->push_back({crossing, 0, start_inside ? edge : start.edge_out});
   }
-  return kept;
+  polygon->swap(*kept);
 }
 
 /// Removes redundant corners, then sets `edge_in` of the others.
@@ -84,9 +86,11 @@ std::vector<ClipCorner> clip_convex_polygon(std::span<const Vec2> subject, std::
   polygon.reserve(subject.size() + clip.size());
   for (std::size_t i = 0; i < subject.size(); ++i) polygon.push_back({subject[i], 0, static_cast<int>(i)});
   const int num_subject = static_cast<int>(subject.size());
+  std::vector<double> heights;
+  std::vector<ClipCorner> kept;
   for (std::size_t i = 0; i < clip.size() && !polygon.empty(); ++i)
-    polygon = clip_by_line(polygon, clip[i], clip[(i + 1) % clip.size()], num_subject + static_cast<int>(i),
-                           tolerance);
+    clip_by_line(&polygon, clip[i], clip[(i + 1) % clip.size()], num_subject + static_cast<int>(i), tolerance,
+                 &heights, &kept);
   simplify(&polygon, tolerance);
   drop_flat_crossings(&polygon, num_subject, crossing_height);
   return polygon;

@@ -33,12 +33,12 @@ struct BadJoints {
   PairValues slivers;   // width, m
 };
 
-/// Checks parts i and k; m, width of the widest patch that they share, 0: none.
-double examine_parts(const Assembly& assembly, const ContactDetector& detector,
-                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& any_width, int i, int k,
-                     BadJoints* bad) {
+/// Checks parts i and k of two blocks. `widest`: m, width of the widest patch of the blocks so far, 0: none.
+void examine_parts(const Assembly& assembly, const ContactDetector& detector,
+                   const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& any_width, int i, int k,
+                   double* widest, BadJoints* bad) {
   const CollisionModel& model = detector.model();
-  if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return 0.0;
+  if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return;
   const int a = model.parts[i].block, b = model.parts[k].block;
   const double depth = -separation(model, i, k, pose_ab, any_width);
   if (depth > detector.margin())
@@ -47,10 +47,9 @@ double examine_parts(const Assembly& assembly, const ContactDetector& detector,
                     "geometry or increase contact.margin",
                     block_label(assembly, a), block_label(assembly, b), depth, detector.margin()));
   if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
-  double widest = 0.0;
+  if (*widest >= detector.narrow_phase().min_width) return;  // no sliver
   for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width))
-    widest = std::max(widest, polygon_width(patch.outline()));
-  return widest;
+    *widest = std::max(*widest, polygon_width(patch.outline()));
 }
 
 /// Checks block a against the blocks of larger index.
@@ -66,7 +65,7 @@ void examine_block(const Assembly& assembly, const ContactDetector& detector, co
     double widest = 0.0;  // parts of cut stones may share slivers of a joint that is wide as a whole
     for (int i = model.part_start[a]; i < model.part_start[a + 1]; ++i)
       for (int k = model.part_start[b]; k < model.part_start[b + 1]; ++k)
-        widest = std::max(widest, examine_parts(assembly, detector, pose_ab, any_width, i, k, bad));
+        examine_parts(assembly, detector, pose_ab, any_width, i, k, &widest, bad);
     if (widest > 0.0 && widest < detector.narrow_phase().min_width) bad->slivers[{a, b}] = widest;
   }
 }
