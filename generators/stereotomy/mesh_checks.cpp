@@ -9,7 +9,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
-#include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/box_intersection_d.h>
 
@@ -53,7 +52,6 @@ BoundaryDefect check_boundary(int block, const SurfaceMesh& mesh, bool triangles
   for (const auto edge : mesh.edges()) boundary_edges += mesh.is_border(edge) ? 1 : 0;
   if (boundary_edges > 0 || mesh.number_of_faces() == 0) return {block, open, boundary_edges};
   if (!triangles) return {block, none, 0};
-  if (pmp::does_self_intersect(mesh)) return {block, self_intersecting, 0};
   if (!pmp::is_outward_oriented(mesh)) return {block, inside_out, 0};
   return {block, none, 0};
 }

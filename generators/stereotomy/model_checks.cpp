@@ -54,8 +54,7 @@ void check_boundaries(const Assembly& assembly, bool part_by_part, const Names& 
   using enum BoundaryDefect::Kind;
   const std::string what = d.kind == open
                                ? fmt::format("not closed, {}", counted(d.boundary_edges, "boundary edge"))
-                           : d.kind == inside_out ? "inside out"
-                                                  : "its surface intersects itself";
+                               : "inside out";
   names.fail(d.block,
              fmt::format("block {}: {}{}", names.name(d.block), what,
                          defects.size() > 1 ? fmt::format(" ({} defects in all)", defects.size()) : ""));
@@ -181,8 +180,14 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     const int a = std::min(assembly.parts[p].block, assembly.parts[q].block);
     const int b = std::max(assembly.parts[p].block, assembly.parts[q].block);
     const auto is_ground = [&](int block) { return assembly.blocks[block].kind == BlockKind::support; };
-    if (a == b || (is_ground(a) && is_ground(b))) return;  // supports of two members may overlap
+    if (a == b && tolerances.part_by_part) return;       // the surface was checked as read
+    if (a != b && is_ground(a) && is_ground(b)) return;  // supports of two members may overlap
     const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
+    if (a == b) {
+      if (depth > tolerances.overlap)
+        names.fail(a, fmt::format("block {}: two of its parts overlap by {:.3g} m", names.name(a), depth));
+      return;
+    }
     report->max_overlap = std::max(report->max_overlap, depth);
     if (depth > tolerances.overlap) {
       double& deepest = overlaps[{a, b}];

@@ -31,7 +31,7 @@ struct SkinGrid {
   std::vector<Vec3> inner, outer;  // [bed * num_abscissae + abscissa]
 };
 
-/// Grid of n cells over the height and n in each facet.
+/// Grid of n cells over the height and n in each facet, or n/4 where eight facets or more are narrow.
 SkinGrid sample_skins(const SurfaceMap& surface, int n) {
   std::vector<double> ends{0.0};  // of facets
   if (surface.corners.empty() && surface.closed)
@@ -39,9 +39,11 @@ SkinGrid sample_skins(const SurfaceMap& surface, int n) {
   for (double corner : surface.corners)
     if (corner > 0.0) ends.push_back(corner);
   ends.push_back(surface.extent);
+  const int cells = ends.size() > 8 ? n / 4 : n;
   std::vector<double> abscissae;
   for (size_t facet = 0; facet + 1 < ends.size(); ++facet)
-    for (int i = 0; i < n; ++i) abscissae.push_back(ends[facet] + i * (ends[facet + 1] - ends[facet]) / n);
+    for (int i = 0; i < cells; ++i)
+      abscissae.push_back(ends[facet] + i * (ends[facet + 1] - ends[facet]) / cells);
   abscissae.push_back(surface.extent);
   SkinGrid grid{static_cast<size_t>(n) + 1, abscissae.size(), {}, {}};
   const double first_bed = -surface.first_ring(), step = (surface.num_rows - first_bed) / n;

@@ -1,3 +1,7 @@
+#include <cmath>
+#include <numbers>
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -18,11 +22,11 @@ std::string complaint(const Assembly& assembly) {
 
 /// Moves a block, which gets its own copies of its vertices.
 void shift_block(Assembly* assembly, int block, const Vec3& shift) {
+  std::vector<int> copy(assembly->vertices.size(), -1);
   for (const Part& part : assembly->parts) {
     if (part.block != block) continue;
     const int start = assembly->face_vertex_start[part.face_start];
     const int end = assembly->face_vertex_start[part.face_start + part.num_faces];
-    std::vector<int> copy(assembly->vertices.size(), -1);
     for (int i = start; i < end; ++i) {
       int& v = assembly->face_vertices[i];
       if (copy[v] < 0) {
@@ -55,6 +59,29 @@ TEST(ModelChecks, DetectABlockInsideOut) {
     std::reverse(wall.face_vertices.begin() + wall.face_vertex_start[f],
                  wall.face_vertices.begin() + wall.face_vertex_start[f + 1]);
   EXPECT_NE(complaint(wall).find("block 2: inside out"), std::string::npos) << complaint(wall);
+}
+
+// The four slices of a block of a dome, 30 deg each, become 100 deg wide: the last covers the first. Turning the
+// corners of slices about the axis keeps their faces plane.
+TEST(ModelChecks, DetectABlockThatRunsIntoItself) {
+  Assembly dome = cut_assembly(dome_case(3, 3, 4));
+  const int block = 2;
+  shift_block(&dome, block, Vec3::Zero());
+  std::set<int> ids;
+  for (const Part& part : dome.parts)
+    if (part.block == block)
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        ids.insert(dome.face(f).begin(), dome.face(f).end());
+  const Vec3& centroid = dome.blocks[block].centroid;
+  const double middle = std::atan2(centroid.y(), centroid.x());
+  for (const int id : ids) {
+    Vec3& x = dome.vertices[id];
+    const double angle = std::remainder(std::atan2(x.y(), x.x()) - middle, 2.0 * std::numbers::pi);
+    const double turned = angle * 100.0 / 30.0, radius = std::hypot(x.x(), x.y());
+    x = {radius * std::cos(turned), radius * std::sin(turned), x.z()};
+  }
+  EXPECT_NE(complaint(dome).find("block 2: two of its parts overlap by "), std::string::npos)
+      << complaint(dome);
 }
 
 TEST(ModelChecks, DetectAWarpedFace) {
