@@ -61,8 +61,8 @@ TEST(ModelChecks, DetectABlockInsideOut) {
   EXPECT_NE(complaint(wall).find("block 2: inside out"), std::string::npos) << complaint(wall);
 }
 
-// The four slices of a block of a dome, 30 deg each, become 100 deg wide: the last covers the first. Turning the
-// corners of slices about the axis keeps their faces plane.
+// The four slices of a block of a dome, 30 deg each, become 100 deg wide: the last covers the first. Turning
+// the corners of slices about the axis keeps their faces plane.
 TEST(ModelChecks, DetectABlockThatRunsIntoItself) {
   Assembly dome = cut_assembly(dome_case(3, 3, 4));
   const int block = 2;
