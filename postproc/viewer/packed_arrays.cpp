@@ -2,9 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <memory>
-
-#include <libdeflate.h>
 
 #include "assembly/base/error.hpp"
 
@@ -19,16 +16,6 @@ std::uint32_t zigzag(std::int64_t difference) {
 }
 
 }  // namespace
-
-std::string deflated(const std::string& bytes) {
-  // Higher levels compress 82,000 blocks by 1 % more, in up to twice the time.
-  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> deflate(
-      libdeflate_alloc_compressor(6), &libdeflate_free_compressor);
-  if (deflate == nullptr) throw SystemError("not enough memory to compress the 3-D view of the report");
-  std::string out(libdeflate_zlib_compress_bound(deflate.get(), bytes.size()), '\0');
-  out.resize(libdeflate_zlib_compress(deflate.get(), bytes.data(), bytes.size(), out.data(), out.size()));
-  return out;
-}
 
 nlohmann::json& PackedArrays::append(const std::string& name, const char* type, const void* data,
                                      size_t count, size_t size) {

@@ -11,10 +11,6 @@
 
 namespace cupola {
 
-/// Bytes in zlib's format (RFC 1950), which browsers inflate as "deflate". Throws SystemError if memory is
-/// short.
-std::string deflated(const std::string& bytes);
-
 /// Rounding of lengths to integers: `step` m apart from `origin`.
 struct Lattice {
   double step = 0.0;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "assembly/files/base64.hpp"
-#include "postproc/viewer/packed_arrays.hpp"
+#include "postproc/viewer/packed_scripts.hpp"
+#include "postproc/viewer/packed_text.hpp"
 #include "postproc/viewer/scene.hpp"
 #include "postproc/viewer/viewer_text.hpp"
 
@@ -15,10 +15,6 @@ constexpr const char* kScene = "scene";
 /// Text that a browser does not run.
 std::string data_element(const std::string& id, const std::string& text) {
   return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
-}
-
-std::string packed(const std::string& bytes) {
-  return base64(deflated(bytes));
 }
 
 std::string section(const std::string& attributes) {
@@ -34,7 +30,7 @@ std::string style() {
 
 /// The program, which starts at once.
 std::string program() {
-  return data_element("three", packed(std::string(kThreeScript) + "\n" + kOrbitControlsScript)) +
+  return data_element("three", kPackedScripts) +
          fmt::format("<!--\nThe 3-D view contains three.js (threejs.org):\n\n{}\n-->\n", kThreeLicence) +
          "<script>\n(() => {\n\"use strict\";\n" + kViewerScript + "})();\n</script>\n";
 }
@@ -43,7 +39,7 @@ std::string program() {
 
 std::string viewer_html(const Evaluation& evaluation, const Film& film) {
   return style() + section(fmt::format("id=\"view\" data-scene=\"{}\"", kScene)) +
-         data_element(kScene, packed(scene_bytes(evaluation, film))) + program();
+         data_element(kScene, packed_text(scene_bytes(evaluation, film))) + program();
 }
 
 std::string scene_of_report(const std::string& html) {

@@ -13,6 +13,7 @@
 
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/viewer/packed_arrays.hpp"
+#include "postproc/viewer/packed_text.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::scene_test {
