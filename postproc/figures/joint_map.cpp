@@ -73,9 +73,10 @@ void JointMap::add(std::pair<int, int> blocks, std::optional<double> value, Rows
 
 std::string JointMap::outlines() const {
   Rows rows;
-  for (const ShellBox& box : map_.boxes)
-    rows.push_back(
-        {0.5 * (box.from + box.to), box.ring + 0.5, box.from, box.to, double(box.ring), box.ring + 1.0});
+  for (const auto& [box, rings] : tall_boxes(map_)) {
+    const double ring = box.ring;
+    rows.push_back({0.5 * (box.from + box.to), ring + 0.5 * rings, box.from, box.to, ring, ring + rings});
+  }
   return data_block("outlines", rows);
 }
 

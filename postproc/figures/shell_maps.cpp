@@ -32,14 +32,14 @@ std::string map_axes(const ShellMap& map) {
 std::string panel(const ShellMap& map, double (*value)(const ShellBox&), const std::string& name,
                   const std::string& grey, const std::string& settings) {
   Rows known, others, pulls;
-  for (const ShellBox& box : map.boxes) {
+  for (const auto& [box, rings] : tall_boxes(map)) {
     const double v = value(box);
     // A block that crosses +-180 degrees is drawn at both ends.
     for (const double turn : {0.0, -360.0, 360.0}) {
       if (turn != 0.0 && (!map.vault || box.to + turn <= -180.0 || box.from + turn >= 180.0)) continue;
       const double r = box.ring;
       std::vector<double> row{
-          0.5 * (box.from + box.to) + turn, r + 0.5, box.from + turn, box.to + turn, r, r + 1.0};
+          0.5 * (box.from + box.to) + turn, r + 0.5 * rings, box.from + turn, box.to + turn, r, r + rings};
       if (std::isfinite(v)) row.push_back(v);
       if (v < 0.0) pulls.push_back({row[0], row[1]});
       (std::isfinite(v) ? known : others).push_back(std::move(row));

@@ -1,6 +1,7 @@
 #include "postproc/tables/shell_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -122,6 +123,27 @@ std::vector<ShellMap> shell_maps(const Evaluation& e) {
     if (named && maps.back().boxes.empty()) maps.pop_back();
   }
   return maps;
+}
+
+std::vector<TallBox> tall_boxes(const ShellMap& map) {
+  std::vector<TallBox> tall;
+  for (const ShellBox& box : map.boxes) {
+    if (!tall.empty()) {
+      const auto& [below, rings] = tall.back();
+      const double rounding = 1e-9 * std::abs(box.to - box.from);
+      const bool above = box.block == below.block && box.ring == below.ring + rings;
+      const bool as_wide =
+          std::abs(box.from - below.from) <= rounding && std::abs(box.to - below.to) <= rounding;
+      const bool as_loaded =
+          box.meridional_force == below.meridional_force && box.hoop_force == below.hoop_force;
+      if (above && as_wide && as_loaded) {
+        ++tall.back().rings;
+        continue;
+      }
+    }
+    tall.push_back({box});
+  }
+  return tall;
 }
 
 Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes) {

@@ -34,6 +34,13 @@ struct ShellMap {
   std::string suffix() const;  ///< of the names of its files: "" or "_" and the wythe
 };
 
+/// A block in `rings` rings that lie on each other, where it is equally wide and has the same forces.
+struct TallBox {
+  ShellBox lowest;
+  int rings = 1;
+};
+std::vector<TallBox> tall_boxes(const ShellMap& map);
+
 const Columns<ShellBox>& shell_columns();
 
 /// The blocks on the beds of the shell, of one map per wythe that has blocks, inside first; no map without

@@ -105,6 +105,24 @@ TEST(ShellMaps, NegligibleBlocksAreGrey) {
   EXPECT_EQ(data_of(use, "kern")[0][6], 1.5);
 }
 
+// A block in three rings, wider and then more loaded in the upper ones, and one above it.
+TEST(ShellMaps, ABlockIsOneBoxWhereItIsEquallyWideAndLoaded) {
+  const ShellMap map{true,
+                     6,
+                     {{0, 1, -10, 10, 4e3, 1e3, 0.1, 0.2},
+                      {0, 2, -10, 10, 4e3, 1e3, 0.1, 0.2},
+                      {0, 3, -10, 11, 4e3, 1e3, 0.1, 0.2},
+                      {0, 4, -10, 11, 5e3, 1e3, 0.1, 0.2},
+                      {1, 5, -10, 11, 5e3, 1e3, 0.1, 0.2}}};
+  std::vector<std::pair<int, int>> boxes;
+  for (const auto& [lowest, rings] : tall_boxes(map)) boxes.emplace_back(lowest.ring, rings);
+  EXPECT_EQ(boxes, (std::vector<std::pair<int, int>>{{1, 2}, {3, 1}, {4, 1}, {5, 1}}));
+  MapScales scales;
+  scales.include(map);
+  EXPECT_EQ(data_of(force_map(map, scales), "hoop")[0],
+            (std::vector<double>{0, 2, -10, 10, 1, 3, 1}));  // x, y, and their ends; kN/m
+}
+
 // In grey both ends of the scale of hoop forces look the same: blocks in tension have a dot.
 TEST(ShellMaps, TensionHasDots) {
   const auto dots = [](double hoop_force) {
