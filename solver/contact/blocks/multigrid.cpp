@@ -159,6 +159,19 @@ bool Multigrid::build(const BlockPattern& pattern, const BlockMatrix& matrix,
   return !levels_.empty() && factorize_coarsest(A);
 }
 
+bool Multigrid::rebuild(const BlockPattern& pattern, const BlockMatrix& matrix) {
+  CUPOLA_ASSERT(!levels_.empty());
+  BlockRows A = both_triangles(pattern, matrix);
+  for (Level& level : levels_) {
+    level.inverse = inverse_diagonal(A);
+    if (level.inverse.empty()) return false;
+    level.A = in_order_of_sweeps(A);
+    if (ends_in_sweeps_ && &level == &levels_.back()) return true;
+    A = galerkin_product(A, level.P, level.P_transposed);
+  }
+  return factorize_coarsest(A);
+}
+
 bool Multigrid::factorize_coarsest(const BlockRows& A) {
   BlockPattern pattern;
   BlockMatrix matrix;

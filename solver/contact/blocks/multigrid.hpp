@@ -31,6 +31,9 @@ class Multigrid {
   /// False if the matrix is not positive definite in double precision, or if aggregation does not coarsen.
   [[nodiscard]] bool build(const BlockPattern& pattern, const BlockMatrix& matrix,
                            const RigidMotions& motions);
+  /// The same with the prolongations of the last build() for another matrix of that pattern. They are not
+  /// smoothed by this matrix.
+  [[nodiscard]] bool rebuild(const BlockPattern& pattern, const BlockMatrix& matrix);
 
   /// One cycle: an approximation of the inverse times r, symmetric positive definite.
   VecX cycle(const VecX& r) const { return cycle(0, r); }

@@ -70,11 +70,22 @@ bool NewtonDirection::solve_by_multigrid(const BlockPattern& pattern, const Bloc
                                          VecX* d, SolveSummary* summary) {
   constexpr int kMaxIterations = 300;  // brick domes take 15 to 90 for six digits
   constexpr double kUsefulReduction = 0.1;
-  Multigrid multigrid;
-  if (!multigrid.build(pattern, H, motions)) return false;
-  return conjugate_gradients([&](const VecX& x) { return multiply(pattern, H, x); },
-                             [&](const VecX& r) { return multigrid.cycle(r); }, rhs, forcing, kMaxIterations,
-                             d, summary) <= std::max(kUsefulReduction, forcing);
+  constexpr double kWorn = 1.5;  // chosen: CG iterations per digit, over those with new prolongations
+  const bool is_new = !multigrid_;
+  if (is_new) multigrid_.emplace();
+  if (!(is_new ? multigrid_->build(pattern, H, motions) : multigrid_->rebuild(pattern, H))) {
+    multigrid_.reset();
+    return !is_new && solve_by_multigrid(pattern, H, motions, rhs, forcing, d, summary);
+  }
+  const int before = summary->conjugate_gradients;
+  const double reached = conjugate_gradients([&](const VecX& x) { return multiply(pattern, H, x); },
+                                             [&](const VecX& r) { return multigrid_->cycle(r); }, rhs,
+                                             forcing, kMaxIterations, d, summary);
+  const double per_digit = (summary->conjugate_gradients - before) / -std::log10(std::max(reached, 1e-16));
+  if (is_new) per_digit_ = per_digit;
+  const bool useful = reached <= std::max(kUsefulReduction, forcing);
+  if (!useful || !(per_digit <= kWorn * per_digit_)) multigrid_.reset();
+  return useful || (!is_new && solve_by_multigrid(pattern, H, motions, rhs, forcing, d, summary));
 }
 
 }  // namespace cupola

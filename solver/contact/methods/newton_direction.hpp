@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/blocks/multigrid.hpp"
 #include "solver/contact/problem/solve_summary.hpp"
@@ -19,14 +21,19 @@ class NewtonDirection {
   [[nodiscard]] bool solve_lagged(const BlockPattern& pattern, const BlockMatrix& H, const VecX& rhs,
                                   double forcing, VecX* d, SolveSummary* summary);
 
-  /// The same with a multigrid preconditioner built for H. False if it cannot be built, or if hundreds of CG
-  /// iterations do not reduce the residual to a tenth.
+  /// The same with a multigrid preconditioner for H. Its prolongations are those of the last call, as long as
+  /// they serve. False if it cannot be built, or if hundreds of CG iterations do not reduce the residual to a
+  /// tenth.
   [[nodiscard]] bool solve_by_multigrid(const BlockPattern& pattern, const BlockMatrix& H,
                                         const RigidMotions& motions, const VecX& rhs, double forcing, VecX* d,
                                         SolveSummary* summary);
+  /// Before another problem.
+  void forget_multigrid() { multigrid_.reset(); }
 
  private:
   BlockCholesky factor_;
+  std::optional<Multigrid> multigrid_;
+  double per_digit_ = 0.0;  ///< CG iterations per digit with new prolongations
 };
 
 }  // namespace cupola
