@@ -8,17 +8,20 @@ namespace cupola {
 
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
+/// Rows that a sweep visits in sequence: an eighth of all, so that threads share them.
+int piece_size(int num_rows) {
+  constexpr int kShare = 8, kSmallest = 1024, kLargest = 4096;
+  return std::clamp(num_rows / kShare, kSmallest, kLargest);
+}
 
-constexpr int kPiece = 4096;  // rows that a sweep visits in sequence
 constexpr double kOperationsPerBlockProduct = 72.0;
 
 /// Calls body(first, last) for each piece of a sweep.
 template <class Body>
 void share_pieces(const SingleBlockRows& A, const Body& body) {
-  const int n = A.num_columns;
-  share_loop(kOperationsPerBlockProduct * static_cast<double>(A.value.size()), (n + kPiece - 1) / kPiece,
-             [&](int piece) { body(piece * kPiece, std::min(n, (piece + 1) * kPiece)); });
+  const int n = A.num_columns, size = piece_size(n);
+  share_loop(kOperationsPerBlockProduct * static_cast<double>(A.value.size()), (n + size - 1) / size,
+             [&](int piece) { body(piece * size, std::min(n, (piece + 1) * size)); });
 }
 
 /// Subtracts the product of the entries first to last - 1 with x.
