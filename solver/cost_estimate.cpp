@@ -48,16 +48,15 @@ BlockMatrix sticking_hessian(const ContactProblem& problem, const WhitenedProble
     law.e_t = law.e_t > 0.0 ? law.e_t : kProximal;
     G.push_back(sticking_stiffness(law));
   }
-  return assemble_hessian(white.problem, graph, G);
+  return assemble_hessian(white, graph, G);
 }
 
 /// Processor seconds of one assembly and factorisation.
 double time_factorization(const ContactProblem& problem, BlockCholesky* factor) {
   const double started = cpu_seconds();
   const WhitenedProblem white = whiten(problem);
-  const ContactGraph graph = contact_graph(white.problem);
-  if (factor->factorize(graph.pattern, sticking_hessian(problem, white, graph)))
-    factor->solve(white.problem.v_star);
+  const ContactGraph graph = contact_graph(problem);
+  if (factor->factorize(graph.pattern, sticking_hessian(problem, white, graph))) factor->solve(white.w_star);
   return cpu_seconds() - started;
 }
 
@@ -67,13 +66,13 @@ std::optional<double> time_multigrid(const ContactProblem& problem) {
   constexpr double kForcing = 0.1;
   const double started = cpu_seconds();
   const WhitenedProblem white = whiten(problem);
-  const ContactGraph graph = contact_graph(white.problem);
-  const RigidMotions motions = rigid_motions(problem, graph, white.L);
+  const ContactGraph graph = contact_graph(problem);
+  const RigidMotions motions = rigid_motions(white, graph);
   VecX d;
   SolveSummary summary;
   if (motions.empty() ||
       !NewtonDirection().solve_by_multigrid(graph.pattern, sticking_hessian(problem, white, graph), motions,
-                                            white.problem.v_star, kForcing, &d, &summary))
+                                            white.w_star, kForcing, &d, &summary))
     return std::nullopt;
   return cpu_seconds() - started;
 }

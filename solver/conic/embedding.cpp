@@ -3,7 +3,8 @@
 #include <algorithm>
 
 namespace cupola {
-Embedding::Embedding(const ConicProblem& problem) : p_(problem), equations_(problem), limits_(problem) {
+Embedding::Embedding(const ScaledConicProblem& problem)
+    : p_(problem.problem), white_(problem.white), equations_(problem), limits_(p_) {
   for (int i = 0; i < p_.contacts.num_contacts(); ++i)
     contacts_.emplace_back(p_.contacts.mu[i], Vec3::Zero());
   v_ = VecX::Zero(p_.load.size());
@@ -44,9 +45,9 @@ void Embedding::move_to(const Point& point) {
 EmbeddingResiduals Embedding::residuals() const {
   const VecX gamma = this->gamma();
   EmbeddingResiduals r;
-  const VecX forces = generalized_impulse(p_.contacts, gamma) + p_.load_columns * t_;
+  const VecX forces = generalized_impulse(white_, gamma) + p_.load_columns * t_;
   const VecX conditions = p_.rows.transpose() * gamma + p_.row_multipliers.transpose() * t_;
-  VecX dislocation = -(relative_velocity(p_.contacts, v_) - p_.rows * q_);  // s - D^T v + Q q
+  VecX dislocation = -(relative_velocity(white_, v_) - p_.rows * q_);  // s - D^T v + Q q
   dislocation -= limits_.on_contacts(limits_.lambda);
   const VecX power =
       p_.load_columns.transpose() * v_ - p_.row_multipliers * q_ - limits_.on_multipliers(limits_.lambda);

@@ -35,8 +35,8 @@ struct EmbeddingStep {
 /// The homogeneous self-dual embedding of a scaled conic problem (solve_conic.hpp), at one iterate.
 class Embedding {
  public:
-  /// `problem` must outlive it and be scaled.
-  explicit Embedding(const ConicProblem& problem);
+  /// `problem` must outlive it.
+  explicit Embedding(const ScaledConicProblem& problem);
 
   const VecX& v() const { return v_; }
   const VecX& q() const { return q_; }
@@ -84,6 +84,7 @@ class Embedding {
   double mean(double sum) const;
 
   const ConicProblem& p_;
+  const WhitenedProblem& white_;
   NormalEquations equations_;
   NormalEquations::Unknowns unit_;  ///< response to d_tau = 1
   VecX unit_gamma_;

@@ -57,9 +57,9 @@ bool Embedding::factorize() {
   VecX border = equations_.on_border(G_cost);
   border.head(q_.size()) += p_.row_values - p_.rows.transpose() * shift;
   border.tail(nt) += p_.multiplier_cost + limits_.shifted_tau_column();
-  unit_ = equations_.solve(p_.load + generalized_impulse(p_.contacts, VecX(shift - G_cost)), border);
-  unit_gamma_ = equations_.times_G(equations_.times_border(unit_.border) - cost -
-                                   relative_velocity(p_.contacts, unit_.v));
+  unit_ = equations_.solve(p_.load + generalized_impulse(white_, VecX(shift - G_cost)), border);
+  unit_gamma_ =
+      equations_.times_G(equations_.times_border(unit_.border) - cost - relative_velocity(white_, unit_.v));
   return unit_gamma_.allFinite();
 }
 
@@ -79,10 +79,10 @@ EmbeddingStep Embedding::direction(const EmbeddingResiduals& r, double keep, con
   border.head(nq) += remove * r.rows;
   border.tail(nt) -= remove * r.multipliers + limits_.on_multipliers(own_lambda);
   const NormalEquations::Unknowns own =
-      equations_.solve(generalized_impulse(p_.contacts, G_h) - remove * r.equilibrium, border);
+      equations_.solve(generalized_impulse(white_, G_h) - remove * r.equilibrium, border);
   const VecX own_gamma =
       equations_.times_V_transposed(scaled_d + equations_.times_V(equations_.times_border(own.border) - dual -
-                                                                  relative_velocity(p_.contacts, own.v)));
+                                                                  relative_velocity(white_, own.v)));
 
   const auto objective = [&](const VecX& gamma, const NormalEquations::Unknowns& u) {
     return (p_.cost + limits_.tau_coupling()).dot(gamma) +
@@ -108,7 +108,7 @@ EmbeddingStep Embedding::direction(const EmbeddingResiduals& r, double keep, con
 /// s and the length of a step from its other parts.
 void Embedding::complete(const EmbeddingResiduals& r, double remove, EmbeddingStep* step) const {
   // From the dual row: the scaling would lose the digits of s at contacts on the boundary of their cones.
-  const VecX d_s = remove * r.dual + step->tau * p_.cost + relative_velocity(p_.contacts, step->v) -
+  const VecX d_s = remove * r.dual + step->tau * p_.cost + relative_velocity(white_, step->v) -
                    p_.rows * step->q + limits_.on_contacts(step->lambda);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const ConicContact& contact = contacts_[i];
@@ -175,7 +175,7 @@ void Embedding::refine(const EmbeddingResiduals& r, double remove, const Targets
   double last = std::numeric_limits<double>::infinity();
   EmbeddingStep best = *step;
   for (int pass = 0; pass <= kPasses; ++pass) {
-    const VecX equilibrium = remove * r.equilibrium - generalized_impulse(p_.contacts, step->gamma) -
+    const VecX equilibrium = remove * r.equilibrium - generalized_impulse(white_, step->gamma) -
                              p_.load_columns * step->t - step->tau * p_.load;
     follow_limits(r, remove, targets, step);
     VecX border(nq + nt);
@@ -193,7 +193,7 @@ void Embedding::refine(const EmbeddingResiduals& r, double remove, const Targets
     step->q += change.border.head(nq);
     step->t += change.border.tail(nt);
     step->gamma +=
-        equations_.times_G(equations_.times_border(change.border) - relative_velocity(p_.contacts, change.v));
+        equations_.times_G(equations_.times_border(change.border) - relative_velocity(white_, change.v));
   }
   *step = best;
 }

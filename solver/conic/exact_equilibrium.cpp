@@ -14,12 +14,6 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Impulses inside the limits, and the S of each contact; zero where it carries nothing.
-struct InsidePoint {
-  VecX gamma;
-  std::vector<Mat3> S;
-};
-
 /// S of a contact that rubs: x = (mu n + c, t) lies in a Lorentz cone with the barrier -log(x_0^2 - |t|^2),
 /// whose inverse Hessian is x x^T - (x_0^2 - |t|^2) / 2 diag(1, -1, -1). Limits of the normal force add w e
 /// e^T to the Hessian.
@@ -49,8 +43,9 @@ Mat3 inverse_hessian(const ContactLaw& law, const Vec3& gamma) {
   return S;
 }
 
-InsidePoint inside_point(const ContactProblem& p, const VecX& given, double share) {
-  InsidePoint point{VecX::Zero(given.size()), std::vector<Mat3>(p.num_contacts(), Mat3::Zero())};
+/// Impulses moved inside the limits; zero where a contact without tension carries nothing.
+VecX inside_point(const ContactProblem& p, const VecX& given, double share) {
+  VecX inside = VecX::Zero(given.size());
   for (int i = 0; i < p.num_contacts(); ++i) {
     const ContactLaw law = contact_law(p, i);
     Vec3 gamma = given.segment<3>(3 * i);
@@ -66,10 +61,9 @@ InsidePoint inside_point(const ContactProblem& p, const VecX& given, double shar
     const double limit = (1.0 - share) * law.shear_limit(gamma[0]);
     if (law.carries_shear() && !(limit > 0.0)) continue;
     if (shear > limit) gamma.tail<2>() *= limit / shear;
-    point.gamma.segment<3>(3 * i) = gamma;
-    point.S[i] = inverse_hessian(law, gamma);
+    inside.segment<3>(3 * i) = gamma;
   }
-  return point;
+  return inside;
 }
 
 /// -(load + D gamma), summed in extended precision.
@@ -78,8 +72,8 @@ VecX imbalance_of(const ContactProblem& p, const VecX& load, const VecX& gamma) 
   Extended sum = load.cast<long double>();
   for (int i = 0; i < p.num_contacts(); ++i) {
     const Eigen::Matrix<long double, 3, 1> g = gamma.segment<3>(3 * i).cast<long double>();
-    const auto add = [&](int k, const Mat63& D) {
-      if (k != ContactProblem::kFixed) sum.segment<6>(6 * k) += D.cast<long double>() * g;
+    const auto add = [&](int k, const Lever& D) {
+      if (k != ContactProblem::kFixed) D.add_impulse(g, sum.segment<6>(6 * k));
     };
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);
@@ -87,30 +81,50 @@ VecX imbalance_of(const ContactProblem& p, const VecX& load, const VecX& gamma) 
   return -sum.cast<double>();
 }
 
-/// An upper bound of sqrt(r . K^-1 r) of the whitened imbalance, no tighter than `enough` where that is
-/// above.
-double decrement(const ContactProblem& p, const Whitening& white, const ContactGraph& graph,
-                 const std::vector<Mat3>& S, const VecX& r, double enough, BlockCholesky* factor) {
-  constexpr int kMaxIterations = 60;
-  constexpr double kReduction = 1e-3;  // of the part of lambda that is left
-  constexpr double kRounding = 1e-14;  // shift of the factor, of the largest diagonal entry
-  constexpr double kRest = 10.0;       // the rest is estimated with the factor, not bounded
-  // Has the identity, which plane problems keep in the rows without unknowns.
-  BlockMatrix K = assemble_whitened_hessian(p, white, graph, S);
+/// The S of one contact at impulses that inside_point() gives.
+Mat3 inverse_hessian_of(const ContactProblem& p, int i, const VecX& inside) {
+  const ContactLaw law = contact_law(p, i);
+  const Vec3 gamma = inside.segment<3>(3 * i);
+  return gamma.isZero(0.0) && law.tension_limit() == 0.0 ? Mat3(Mat3::Zero()) : inverse_hessian(law, gamma);
+}
+
+/// J S J^T in whitened unknowns.
+BlockMatrix assemble_K(const WhitenedProblem& problem, const ContactGraph& graph, const VecX& inside) {
+  std::vector<Mat3> S(problem.given.num_contacts());
+  for (int i = 0; i < problem.given.num_contacts(); ++i) S[i] = inverse_hessian_of(problem.given, i, inside);
+  return assemble_stiffness(problem, graph, S);
+}
+
+/// False if K is zero or not positive definite.
+bool factorize_K(const WhitenedProblem& problem, const ContactGraph& graph, const VecX& inside,
+                 BlockCholesky* factor) {
+  constexpr double kRounding = 1e-14;  // shift, of the largest diagonal entry
+  BlockMatrix K = assemble_K(problem, graph, inside);
   const std::span<const int> unknowns = unknowns_of_block(graph.pattern);
   double largest = 0.0;
   for (const Mat6& block : K.diagonal)
     for (const int row : unknowns) largest = std::max(largest, block(row, row));
   for (Mat6& block : K.diagonal)
-    for (const int row : unknowns) block(row, row) += kRounding * largest - 1.0;
-  if (!factor->factorize(graph.pattern, K)) return kInfinite;
+    for (const int row : unknowns) block(row, row) += kRounding * largest;
+  return largest > 0.0 && factor->factorize(graph.pattern, K);
+}
+
+/// An upper bound of sqrt(r . K^-1 r) of the whitened imbalance, no tighter than kProvenDistance where that is
+/// above.
+double decrement(const WhitenedProblem& problem, const VecX& inside, const VecX& r,
+                 const BlockCholesky& factor) {
+  constexpr int kMaxIterations = 60;
+  constexpr double kReduction = 1e-3;  // of the part of lambda that is left
+  constexpr double kRest = 10.0;       // the rest is estimated with the factor, not bounded
   const auto times_K = [&](const VecX& w) {
-    VecX change = relative_velocity(p, white.to_v(w));
-    for (int i = 0; i < p.num_contacts(); ++i)
-      change.segment<3>(3 * i) = (S[i] * change.segment<3>(3 * i)).eval();
-    return white.whiten_impulse(generalized_impulse(p, change));
+    // S again for every product: stored, it would take a tenth of the memory of a large model.
+    VecX change = relative_velocity(problem, w);
+    for (int i = 0; i < problem.given.num_contacts(); ++i)
+      change.segment<3>(3 * i) =
+          (inverse_hessian_of(problem.given, i, inside) * change.segment<3>(3 * i)).eval();
+    return generalized_impulse(problem, change);
   };
-  VecX rest = r, z = factor->solve(rest), direction = z;
+  VecX rest = r, z = factor.solve(rest), direction = z;
   double rz = rest.dot(z), squared = 0.0;
   for (int k = 0; k < kMaxIterations && rz > 0.0; ++k) {
     const VecX product = times_K(direction);
@@ -119,10 +133,10 @@ double decrement(const ContactProblem& p, const Whitening& white, const ContactG
     const double alpha = rz / curvature;
     squared += alpha * rz;  // the energy of conjugate gradients: r . K^-1 r falls by alpha rz
     rest -= alpha * product;
-    z = factor->solve(rest);
+    z = factor.solve(rest);
     const double next = rest.dot(z);
     const double bound = std::sqrt(squared) + kRest * std::sqrt(std::max(0.0, next));
-    if (bound <= enough || next <= kReduction * kReduction * squared) return bound;
+    if (bound <= kProvenDistance || next <= kReduction * kReduction * squared) return bound;
     direction = z + next / rz * direction;
     rz = next;
   }
@@ -131,32 +145,21 @@ double decrement(const ContactProblem& p, const Whitening& white, const ContactG
 
 }  // namespace
 
-double equilibrium_distance(const ContactProblem& problem, const Whitening& white, const ContactGraph& graph,
-                            const VecX& load, const VecX& gamma, BlockCholesky* factor) {
-  CUPOLA_ASSERT(load.size() == 6 * problem.num_blocks() && gamma.size() == 3 * problem.num_contacts());
+double equilibrium_distance(const WhitenedProblem& problem, const ContactGraph& graph, const VecX& load,
+                            const VecX& gamma, BlockCholesky* factor) {
+  const ContactProblem& p = problem.given;
+  CUPOLA_ASSERT(load.size() == 6 * p.num_blocks() && gamma.size() == 3 * p.num_contacts());
   constexpr double kShare = 1e-6;  // of the shear of a joint that slides
-  constexpr double kLarge =
-      1e8;  // entries of K beside which the identity of assemble_hessian() is no more than rounding
-  if (problem.num_blocks() == 0) return 0.0;
-  if (problem.num_contacts() == 0 || !gamma.allFinite()) return kInfinite;
-  InsidePoint point = inside_point(problem, gamma, kShare);
-  double largest = 0.0;
-  for (int i = 0; i < problem.num_contacts(); ++i)
-    for (const auto& [block, D] :
-         {std::pair{problem.block_a[i], &problem.D_a[i]}, {problem.block_b[i], &problem.D_b[i]}})
-      if (block != ContactProblem::kFixed)
-        largest = std::max(largest, point.S[i].trace() * (white.L_inverse[block] * *D).squaredNorm());
-  if (!(largest > 0.0)) return kInfinite;
-  const double scale = kLarge / largest;
-  for (Mat3& S : point.S) S *= scale;
-  const VecX r = white.whiten_impulse(imbalance_of(problem, load, point.gamma));
-  return std::sqrt(scale) *
-         decrement(problem, white, graph, point.S, r, std::sqrt(1.0 / scale) * kProvenDistance, factor);
+  if (p.num_blocks() == 0) return 0.0;
+  if (p.num_contacts() == 0 || !gamma.allFinite()) return kInfinite;
+  const VecX inside = inside_point(p, gamma, kShare);
+  if (!factorize_K(problem, graph, inside, factor)) return kInfinite;
+  return decrement(problem, inside, problem.whiten_impulse(imbalance_of(p, load, inside)), *factor);
 }
 
 bool proves_equilibrium(const ContactProblem& problem, const VecX& load, const VecX& gamma) {
   BlockCholesky factor;
-  return equilibrium_distance(problem, Whitening(problem.M), contact_graph(problem), load, gamma, &factor) <=
+  return equilibrium_distance(whiten(problem), contact_graph(problem), load, gamma, &factor) <=
          kProvenDistance;
 }
 

@@ -20,10 +20,10 @@ namespace cupola {
 /// what the gradients leave is added tenfold. Infinite where K is singular: the loaded contacts cannot carry
 /// every load.
 ///
-/// `load` and `gamma`: impulses or forces, in the unit of the strength of `problem` (6 nb; 3 nc). `white` and
-/// `graph` are those of `problem`; `factor` keeps its structure if it has that of `graph`.
-double equilibrium_distance(const ContactProblem& problem, const Whitening& white, const ContactGraph& graph,
-                            const VecX& load, const VecX& gamma, BlockCholesky* factor);
+/// `load` and `gamma`: impulses or forces, in the unit of the strength of the problem (6 nb; 3 nc). `graph` is
+/// that of the problem; `factor` keeps its structure if it has that of `graph`.
+double equilibrium_distance(const WhitenedProblem& problem, const ContactGraph& graph, const VecX& load,
+                            const VecX& gamma, BlockCholesky* factor);
 
 /// The distance up to which forces next to gamma count as proven: below 1, for the rounding of lambda.
 constexpr double kProvenDistance = 0.5;

@@ -6,10 +6,8 @@
 
 namespace cupola {
 
-NormalEquations::NormalEquations(const ConicProblem& problem)
-    : p_(problem), graph_(contact_graph(problem.contacts)), without_mass_(problem.contacts) {
-  without_mass_.M.assign(problem.contacts.num_blocks(), Mat6::Zero());
-}
+NormalEquations::NormalEquations(const ScaledConicProblem& problem)
+    : p_(problem.problem), white_(problem.white), graph_(contact_graph(white_.given)) {}
 
 VecX NormalEquations::times_V(const VecX& x) const {
   VecX y(x.size());
@@ -33,7 +31,7 @@ bool NormalEquations::factorize(std::vector<Mat3> V, const MatX& coupling, const
   std::vector<Mat3> G;
   G.reserve(V_.size());
   for (const Mat3& V_i : V_) G.push_back(V_i.transpose() * V_i);
-  BlockMatrix H = assemble_hessian(without_mass_, graph_, G);
+  BlockMatrix H = assemble_stiffness(white_, graph_, G);
   for (Mat6& A : H.diagonal) {
     const double largest = A.diagonal().maxCoeff();
     if (!std::isfinite(largest)) return false;
@@ -49,7 +47,7 @@ bool NormalEquations::factorize(std::vector<Mat3> V, const MatX& coupling, const
   MatX rest = MatX::Zero(nq + nt, nq + nt);
   for (Eigen::Index k = 0; k < nq + nt; ++k) {
     const VecX scaled = times_G(on_contacts_.col(k));
-    columns_.col(k) = -generalized_impulse(p_.contacts, scaled);
+    columns_.col(k) = -generalized_impulse(white_, scaled);
     rest.col(k) = on_border(scaled);
   }
   columns_.rightCols(nt) -= p_.load_columns;
@@ -62,13 +60,14 @@ bool NormalEquations::factorize(std::vector<Mat3> V, const MatX& coupling, const
   return solved_.allFinite();
 }
 
-VecX NormalEquations::multiply(const VecX& v) const {
+VecX NormalEquations::multiply(const VecX& w) const {
+  const VecX v = white_.to_v(w);
   VecX product = VecX::Zero(v.size());
-  for (int i = 0; i < p_.contacts.num_contacts(); ++i) {
-    const Vec3 scaled = V_[i] * relative_velocity(p_.contacts, i, v);
-    add_impulse(p_.contacts, i, V_[i].transpose() * scaled, &product);
+  for (int i = 0; i < white_.given.num_contacts(); ++i) {
+    const Vec3 scaled = V_[i] * relative_velocity(white_.given, i, v);
+    add_impulse(white_.given, i, V_[i].transpose() * scaled, &product);
   }
-  return product;
+  return white_.whiten_impulse(product);
 }
 
 VecX NormalEquations::solve(const VecX& f) const {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/conic/conic_problem.hpp"
+#include "solver/conic/scaled_problem.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 
 namespace cupola {
@@ -28,8 +28,8 @@ class NormalEquations {
     VecX border;  ///< q, t (nq + nt)
   };
 
-  /// `problem` must outlive it and have M = identity (whitened).
-  explicit NormalEquations(const ConicProblem& problem);
+  /// `problem` must outlive it.
+  explicit NormalEquations(const ScaledConicProblem& problem);
 
   /// False if the matrix is not positive definite in double precision. V: per contact, G = V^T V (nc). V is
   /// applied twice instead of G, whose small eigenvalues have lost their digits.
@@ -45,12 +45,12 @@ class NormalEquations {
   VecX times_G(const VecX& x) const { return times_V_transposed(times_V(x)); }
 
  private:
-  VecX multiply(const VecX& v) const;
+  VecX multiply(const VecX& w) const;
   VecX solve(const VecX& f) const;
 
   const ConicProblem& p_;
+  const WhitenedProblem& white_;
   ContactGraph graph_;
-  ContactProblem without_mass_;  ///< for assemble_hessian()
   BlockCholesky factor_;
   std::vector<Mat3> V_;
   MatX on_contacts_;       ///< [Q, K] (3 nc, nq + nt)

@@ -26,7 +26,7 @@ VecX opening_motion(const ConicProblem& problem) {
   ScaledConicProblem s = scaled(problem);
   s.problem.load_columns.resize(Eigen::NoChange, 0);
   s.problem.row_multipliers.resize(0, 0);
-  NormalEquations equations(s.problem);
+  NormalEquations equations(s);
   std::vector<Mat3> weights(problem.contacts.num_contacts(), Mat3::Identity());
   VecX open = VecX::Zero(problem.cost.size());
   for (int i = 0; i < problem.contacts.num_contacts(); ++i)
@@ -35,7 +35,7 @@ VecX opening_motion(const ConicProblem& problem) {
     else
       open[3 * i] = 1.0;
   if (!equations.factorize(std::move(weights), MatX(s.problem.cost.size(), 0), MatX(0, 0))) return {};
-  VecX v = s.white.to_v(equations.solve(generalized_impulse(s.problem.contacts, open), VecX()).v);
+  VecX v = s.white.to_v(equations.solve(generalized_impulse(s.white, open), VecX()).v);
   const VecX inside = distance_inside(problem.contacts, v);
   for (int i = 0; i < problem.contacts.num_contacts(); ++i)
     if (!(inside[i] > 0.0) && !crushes(problem.contacts, i)) return {};

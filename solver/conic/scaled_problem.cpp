@@ -40,31 +40,23 @@ void check_sizes(const ConicProblem& p) {
 }
 
 ScaledConicProblem scaled(const ConicProblem& p) {
-  ScaledConicProblem s;
-  s.white = whiten(p.contacts);
+  ScaledConicProblem s{{}, whiten(p.contacts), 1.0, 1.0, {}, {}};
   ConicProblem& q = s.problem;
-  q.contacts = s.white.problem;
+  q.contacts = p.contacts;
   const int nb = p.contacts.num_blocks();
   double mass = 0.0;
   for (const Mat6& M : p.contacts.M) mass += M.topLeftCorner<3, 3>().trace() / (3.0 * nb);
-  s.unknown = std::sqrt(positive_or_one(mass));
-  for (auto* side : {&q.contacts.D_a, &q.contacts.D_b})
-    for (Mat63& D : *side) D *= s.unknown;
-  const auto whitened = [&](const Eigen::Ref<const VecX>& load) {
-    VecX x(load.size());
-    for (int k = 0; k < nb; ++k)
-      x.segment<6>(6 * k) = s.unknown * (s.white.L_inverse[k] * load.segment<6>(6 * k));
-    return x;
-  };
+  const double root_mass = std::sqrt(positive_or_one(mass));
+  for (Mat6& L_inverse : s.white.L_inverse) L_inverse *= root_mass;
 
-  q.load = whitened(p.load);
+  q.load = s.white.whiten_impulse(p.load);
   s.force = positive_or_one(largest(q.load));
   q.load /= s.force;
   const Eigen::Index nt = p.load_columns.cols(), nq = p.rows.cols();
   q.load_columns.resize(6 * nb, nt);
   s.multiplier.resize(nt);
   for (Eigen::Index j = 0; j < nt; ++j) {
-    const VecX column = whitened(p.load_columns.col(j));
+    const VecX column = s.white.whiten_impulse(p.load_columns.col(j));
     s.multiplier[j] = s.force / positive_or_one(largest(column));
     q.load_columns.col(j) = column * (s.multiplier[j] / s.force);
   }

@@ -86,7 +86,7 @@ ConicOutcome iterate(const ConicOptions& options, int num_contacts, Embedding* x
 ConicSolution solve_dry(const ConicProblem& problem, const ConicOptions& options) {
   const ScaledConicProblem s = scaled(problem);
   ConicSolution solution;
-  Embedding x(s.problem);
+  Embedding x(s);
   Embedding::Point mechanism;
   solution.outcome = iterate(options, problem.contacts.num_contacts(), &x, &mechanism, &solution.iterations);
   // Certificates have no natural length.
@@ -97,7 +97,7 @@ ConicSolution solve_dry(const ConicProblem& problem, const ConicOptions& options
   const double length = proof ? 1.0 : 1.0 / x.tau(), dual_length = proof ? 1.0 : 1.0 / mechanism.tau;
   solution.gamma = s.force * length * x.gamma();
   solution.multipliers = length * s.multiplier.cwiseProduct(x.t());
-  solution.v = s.unknown * s.objective / s.force * dual_length * s.white.to_v(mechanism.v);
+  solution.v = s.objective / s.force * dual_length * s.white.to_v(mechanism.v);
   solution.row_velocities = s.objective * dual_length * mechanism.q.cwiseQuotient(s.row);
   return solution;
 }

@@ -13,7 +13,7 @@ constexpr double kAccountOperationsPerContact = 50.0;
 
 /// m/N of a row: E = c / (impulse_time (reach + alpha)).
 double compliance(const StepProblem& step, Eigen::Index row, const StepOptions& options) {
-  return step.problem.E[row] * step.impulse_time[row] * options.damped_reach();
+  return step.problem.E[row] * step.impulse_time[row / 3] * options.damped_reach();
 }
 
 std::vector<double> spring_energies(const StepProblem& step, const ContactMemories& memories,
@@ -44,7 +44,7 @@ struct JointWork {
   double friction = 0.0, dilatancy = 0.0;
 };
 JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& z) {
-  const double scale = step.reach / step.impulse_time[3 * i];
+  const double scale = step.reach / step.impulse_time[i];
   const double normal = scale * gamma[0] * z[0];
   JointWork work{-scale * gamma.tail<2>().dot(z.tail<2>()), std::max(0.0, normal)};
   if (!step.problem.strength.empty()) work.friction += std::max(0.0, -normal);
@@ -53,7 +53,7 @@ JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Ve
 
 /// J, of the plastic elongation of a tie.
 double yield_work(const StepProblem& step, int row, const ContactSolution& solution) {
-  return solution.gamma[3 * row] / step.impulse_time[3 * row] * plastic_elongation(step, row, solution);
+  return solution.gamma[3 * row] / step.impulse_time[row] * plastic_elongation(step, row, solution);
 }
 
 /// Work of the contacts and ties: what the joints dissipate, and the springs beyond what they store.
@@ -62,12 +62,12 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
                     const StepOptions& options, StepWork* work) {
   const ContactProblem& problem = step.problem;
   const VecX u = relative_velocity(problem, solution.v), u_start = relative_velocity(problem, start.state.v);
-  const VecX mean = 0.5 * (u + u_start) + step.support_velocity;
+  const VecX mean = step.with_supports(0.5 * (u + u_start));
   const VecX z = u + problem.b + problem.E.cwiseProduct(solution.gamma);
-  const VecX u_el = u + step.support_velocity - z;
+  const VecX u_el = step.with_supports(u - z);
   const VecX p = step.past_impulse.size() > 0 ? VecX(solution.gamma + step.past_impulse) : solution.gamma;
   const std::vector<double> springs = spring_energies(step, memories, options);
-  work->supports = -p.dot(step.support_velocity);
+  work->supports = step.support_velocity.size() > 0 ? -p.dot(step.support_velocity) : 0.0;
   const int nc = step.num_contacts;
   *work = sum_in_order(kAccountOperationsPerContact * nc, nc, *work, [&](int i) {
     const Eigen::Index row = 3 * i;
@@ -78,7 +78,7 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
       damping += damping_work(step, row + k, u_el[row + k], options);
     const double taken = -p.segment<3>(row).dot(mean.segment<3>(row));
     const double lost = taken - joint.friction + joint.dilatancy - damping - (springs[i] - start.springs[i]);
-    const double approach_per_step = options.h * (u_start[row] + step.support_velocity[row]);
+    const double approach_per_step = options.h * (u_start[row] + step.support_velocity_of(i)[0]);
     const bool closes = gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i];
     StepWork term;
     term.friction = joint.friction;

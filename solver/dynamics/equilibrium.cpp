@@ -49,15 +49,15 @@ JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, const Ve
   JointForces forces;
   constexpr double kOperationsPerContact = 60.0;
   const auto nc = static_cast<int>(contacts.points.size());
-  CUPOLA_ASSERT(gamma.size() >= 3 * nc && gamma.size() % 3 == 0 && impulse_time.size() == gamma.size());
+  CUPOLA_ASSERT(gamma.size() >= 3 * nc && gamma.size() == 3 * impulse_time.size());
   forces.contacts.resize(contacts.points.size());
   share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
     for (int i = first; i < last; ++i)
       forces.contacts[i] =
-          contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / impulse_time[3 * i];
+          contact_frame(contacts.points[i].normal) * gamma.segment<3>(3 * i) / impulse_time[i];
   });
   for (Eigen::Index row = 3 * nc; row < gamma.size(); row += 3)
-    forces.ties.push_back(gamma[row] / impulse_time[row]);
+    forces.ties.push_back(gamma[row] / impulse_time[row / 3]);
   return forces;
 }
 

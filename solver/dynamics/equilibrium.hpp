@@ -10,7 +10,7 @@ struct JointForces {
   std::vector<double> ties;    ///< N, >= 0: tension of a tie, thrust of a strut (number of ties)
 };
 
-/// Forces of a step from its impulses `gamma` (N s): gamma / impulse_time (s, the same size) in world axes.
+/// Forces of a step from its impulses `gamma` (N s): gamma / impulse_time (s, one per contact) in world axes.
 JointForces joint_forces(const ContactSet& contacts, const VecX& gamma, const VecX& impulse_time);
 
 /// Balance of forces and moments, computed from contact points and world forces independently of the matrices

@@ -88,7 +88,7 @@ bool refine_step(const Model& model, const State& state, const ContactSet& conta
     again = again || mean > joint.step_damage + kDamageError;
     joint.step_damage = std::max(joint.step_damage, mean);
     const bool pulled = joint.opening > 0.0 && !joint.bears && joint.step_damage < 1.0;
-    const double u_n = relative_velocity(step.problem, i, solution.v)[0] + step.support_velocity[3 * i];
+    const double u_n = relative_velocity(step.problem, i, solution.v)[0] + step.support_velocity_of(i)[0];
     if (pulled && contact.gap + joint.crushing + options.h * u_n < 0.0) again = joint.bears = true;
     refined.push_back(joint);
   }

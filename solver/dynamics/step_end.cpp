@@ -61,7 +61,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
   const ContactProblem& problem = step.problem;
   CUPOLA_ASSERT(solution.gamma.size() == 3 * problem.num_contacts());
   CUPOLA_ASSERT(static_cast<int>(memories->ids.size()) == step.num_contacts);
-  const VecX u = relative_velocity(problem, solution.v) + step.support_velocity;
+  const VecX u = step.with_supports(relative_velocity(problem, solution.v));
   const double h = options.reach();
   std::vector<ContactMemory>& values = memories->stored();
   const auto update = [&](int i) {
@@ -70,7 +70,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     const Mat3 R_WC = contact_frame(contact.normal);
     const double rest = known_motion(step, i, state.v, options).rest[0];
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
-    const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity.segment<3>(3 * i);
+    const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity_of(i);
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
     memory.tangent_A = state.poses[contact.block_a].q_WB.conjugate() * R_WC.col(1);
@@ -90,7 +90,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     memory.elastic_slip_A = state.poses[contact.block_a].q_WB.conjugate() * (R_WC * slip_C);
     if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
     if (options.integrator.is_euler()) return;
-    const Vec3 force_C = gamma / step.impulse_time[3 * i];
+    const Vec3 force_C = gamma / step.impulse_time[i];
     update_past(state.poses[contact.block_a].q_WB.conjugate() * (R_WC * force_C),
                 contact.gap + rest + h * u[3 * i], options, &memory);
   };

@@ -14,17 +14,6 @@
 namespace cupola {
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-
-/// Columns of D of one body: u = [R_WC; r x R_WC]^T v, with r (`arm`, m) from its centroid to the contact
-/// point.
-Mat63 contact_columns(const Vec3& arm, const Mat3& R_WC) {
-  Mat63 D;
-  D.topRows<3>() = R_WC;
-  for (int k = 0; k < 3; ++k) D.col(k).tail<3>() = arm.cross(R_WC.col(k));
-  return D;
-}
-
 void resize_rows(int num_rows, StepProblem* step) {
   ContactProblem& problem = step->problem;
   problem.block_a.resize(num_rows);
@@ -34,7 +23,6 @@ void resize_rows(int num_rows, StepProblem* step) {
   problem.b = VecX::Zero(3 * num_rows);
   problem.E.resize(3 * num_rows);
   problem.mu = VecX::Zero(num_rows);
-  step->support_velocity = VecX::Zero(3 * num_rows);
 }
 
 /// The three rows of a contact or tie between two blocks. The force on each block acts at its own point.
@@ -42,8 +30,8 @@ void set_row(const Model& model, const State& state, int row, int block_a, int b
              const Vec3& point_b, const Mat3& R_WC, ContactProblem* problem) {
   problem->block_a[row] = model.free_index[block_a];
   problem->block_b[row] = model.free_index[block_b];
-  problem->D_a[row] = -contact_columns(point_a - state.poses[block_a].p_WB, R_WC);
-  problem->D_b[row] = contact_columns(point_b - state.poses[block_b].p_WB, R_WC);
+  problem->D_a[row] = {-R_WC, point_a - state.poses[block_a].p_WB};
+  problem->D_b[row] = {R_WC, point_b - state.poses[block_b].p_WB};
 }
 
 void set_rows(const Model& model, const State& state, const ContactSet& contacts, StepProblem* step) {
@@ -93,7 +81,7 @@ void set_past(const Model& model, const State& state, const ContactSet& contacts
     filtered.segment<3>(3 * i) = R_CA * memory.filtered_A;
     step->past_impulse.segment<3>(3 * i) =
         options.h * (scheme.filtered * filtered.segment<3>(3 * i) + scheme.start * force);
-    step->impulse_time.segment<3>(3 * i).setConstant(options.h * scheme.end);
+    step->impulse_time[i] = options.h * scheme.end;
   }
   const VecX f = applied_forces(model, state, state.time + options.load_advance());
   step->acceleration = accelerations(step->problem, f + generalized_impulse(step->problem, filtered));
@@ -147,7 +135,7 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
     }
     problem->E.segment<3>(3 * i) << law.compliance_normal, law.compliance_tangential,
         law.compliance_tangential;
-    problem->E.segment<3>(3 * i) /= step->impulse_time[3 * i] * h_alpha;
+    problem->E.segment<3>(3 * i) /= step->impulse_time[i] * h_alpha;
 
     const KnownMotion known = known_motion(*step, i, state.v, options);
     const bool smooth = options.integrator.is_euler() || has_past(memory, options);
@@ -187,9 +175,13 @@ void set_tie_laws(const Model& model, const State& state, const ContactMemories&
 /// Restricts all rows and masses to motion in the x-z plane.
 void drop_rows_out_of_plane(ContactProblem* problem) {
   problem->plane = true;
+  for (std::vector<Lever>* side : {&problem->D_a, &problem->D_b}) {
+    for (Lever& D : *side) {
+      D.frame.row(1).setZero();
+      D.arm[1] = 0.0;
+    }
+  }
   for (const int out : kOutOfPlane) {
-    for (std::vector<Mat63>* D : {&problem->D_a, &problem->D_b})
-      for (Mat63& rows : *D) rows.row(out).setZero();
     for (Mat6& M : problem->M)
       for (const int in : {0, 2, 4}) M(out, in) = M(in, out) = 0.0;
   }
@@ -208,7 +200,7 @@ void add_support_velocities(const Model& model, const State& state, const Contac
     const int a = is_contact ? contacts.points[row].block_a : model.ties[tie].block_a;
     const int b = is_contact ? contacts.points[row].block_b : model.ties[tie].block_b;
     step->support_velocity.segment<3>(3 * row) =
-        problem.D_a[row].transpose() * v.col(a) + problem.D_b[row].transpose() * v.col(b);
+        problem.D_a[row].velocity(v.col(a)) + problem.D_b[row].velocity(v.col(b));
   }
 }
 
@@ -248,7 +240,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   step.problem.h = options.h;
   resize_rows(step.num_contacts + static_cast<int>(model.ties.size()), &step);
   step.reach = options.reach();
-  step.impulse_time = VecX::Constant(step.problem.b.size(), options.h);
+  step.impulse_time = VecX::Constant(step.problem.num_contacts(), options.h);
   if (model.has_strength()) step.problem.strength.resize(step.problem.block_a.size());
   step.problem.M.resize(model.num_free());
   for (int i = 0; i < model.num_free(); ++i) {
@@ -263,9 +255,11 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   if (model.plane) stay_in_plane(&step.problem.v_star);
   set_contact_laws(model, state, contacts, memories, options, &step);
   set_tie_laws(model, state, memories, options, step.num_contacts, &step.problem);
+  if (model.support_motions.empty() && model.heat.empty()) return step;
+  step.support_velocity = VecX::Zero(step.problem.b.size());
   if (!model.support_motions.empty()) add_support_velocities(model, state, contacts, options, &step);
   if (!model.heat.empty()) add_expansion(model, state, contacts, options, &step);
-  if (!model.support_motions.empty() || !model.heat.empty()) step.problem.b += step.support_velocity;
+  step.problem.b += step.support_velocity;
   return step;
 }
 

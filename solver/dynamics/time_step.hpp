@@ -34,13 +34,23 @@ struct StepOptions {
 struct StepProblem {
   ContactProblem problem;
   /// m/s: D_s^T v_s, and the velocity at which the heated faces of a contact separate; included in problem.b
-  /// (3 (nc + number of ties))
+  /// (3 (nc + number of ties); empty: none)
   VecX support_velocity;
   double reach = 0.0;    ///< s, StepOptions::reach()
-  VecX impulse_time;     ///< s: gamma over it is the force at the end of the step (3 (nc + number of ties))
+  VecX impulse_time;     ///< s: gamma over it is the force at the end of the step (nc + number of ties)
   VecX past_impulse;     ///< N s, p - gamma, included in problem.v_star (the same size; empty: none)
   VecX acceleration;     ///< m/s2, (f + D s) / M (6 nb; empty: none)
   int num_contacts = 0;  ///< nc, without the ties
+
+  /// u + support_velocity (3 (nc + number of ties)).
+  VecX with_supports(VecX u) const {
+    if (support_velocity.size() > 0) u += support_velocity;
+    return u;
+  }
+  /// support_velocity of one contact or tie.
+  Vec3 support_velocity_of(int row) const {
+    return support_velocity.size() > 0 ? Vec3(support_velocity.segment<3>(3 * row)) : Vec3::Zero();
+  }
 };
 
 /// Axes of a contact with unit normal n: columns n, t1, t2, right-handed. The tangents depend only on n.

@@ -327,35 +327,34 @@ void threads() {
     shape.blocks_per_ring = 32 * refine;
     const ContactProblem dome = scenes::dome(shape, 1.0, {0.4, 1e-8, 1e-8});
     const WhitenedProblem white = whiten(dome);
-    const ContactProblem& p = white.problem;
-    const ContactGraph graph = contact_graph(p);
+    const ContactGraph graph = contact_graph(dome);
     std::vector<Mat3> G;
-    for (int i = 0; i < p.num_contacts(); ++i)
-      G.push_back(contact_stiffness(contact_law(p, i), -Vec3::UnitX()));
+    for (int i = 0; i < dome.num_contacts(); ++i)
+      G.push_back(contact_stiffness(contact_law(dome, i), -Vec3::UnitX()));
     BlockMatrix H;
     double assembly[2], factorisation[2];
     VecX x[2];
     double solve = 0.0;
     for (const int n : {1, 2}) {
       set_num_threads(n);
-      assembly[n - 1] = shortest([&] { H = assemble_hessian(p, graph, G); });
+      assembly[n - 1] = shortest([&] { H = assemble_hessian(white, graph, G); });
       BlockCholesky factor;
       if (!factor.factorize(graph.pattern, H)) return;  // the first factorisation includes the ordering
       bool sound = true;
       factorisation[n - 1] = shortest([&] { sound = factor.factorize(graph.pattern, H) && sound; });
       if (!sound) return;
-      solve = shortest([&] { x[n - 1] = factor.solve(p.v_star); });
+      solve = shortest([&] { x[n - 1] = factor.solve(white.w_star); });
     }
     set_num_threads(1);
     const double start = wall_seconds();
-    const int by_jacobi = block_jacobi_iterations(graph.pattern, H, p.v_star);
+    const int by_jacobi = block_jacobi_iterations(graph.pattern, H, white.w_star);
     const double jacobi = wall_seconds() - start;
     Multigrid multigrid;
-    if (!multigrid.build(graph.pattern, H, rigid_motions(dome, graph, white.L))) return;
+    if (!multigrid.build(graph.pattern, H, rigid_motions(white, graph))) return;
     const double built = wall_seconds() - start - jacobi;
-    const int by_multigrid =
-        count_cg_iterations(graph.pattern, H, p.v_star, [&](const VecX& r) { return multigrid.cycle(r); });
-    fmt::print("{},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{},{:.2f},{:.2f},{},{:.2f}\n", p.num_blocks(),
+    const int by_multigrid = count_cg_iterations(graph.pattern, H, white.w_star,
+                                                 [&](const VecX& r) { return multigrid.cycle(r); });
+    fmt::print("{},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{},{:.2f},{:.2f},{},{:.2f}\n", dome.num_blocks(),
                assembly[0], assembly[1], factorisation[0], factorisation[1],
                x[0] == x[1] ? "same" : "DIFFERENT", solve, by_jacobi, jacobi, built, by_multigrid,
                wall_seconds() - start - jacobi - built);

@@ -263,7 +263,8 @@ void Comparison::run_siconos_global(const std::vector<Settings>& settings) {
       }
     }
   }
-  const auto add = [&contacts](int i, int k, const Mat63& D) {
+  const auto add = [&contacts](int i, int k, const Lever& lever) {
+    const Mat63 D = lever.matrix();
     for (int r = 0; r < 6 && k != ContactProblem::kFixed; ++r) {
       for (int c = 0; c < 3; ++c) contacts.emplace_back(6 * k + r, 3 * i + c, D(r, c));
     }

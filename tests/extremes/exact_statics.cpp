@@ -177,8 +177,8 @@ StaticEnergy<Real> make_static_energy(const Model& model, const State& rest, con
     spring.b = problem.block_b[i];
     spring.D_a.setZero();
     spring.D_b.setZero();
-    if (spring.a >= 0) spring.D_a = problem.D_a[i].cast<Real>();
-    if (spring.b >= 0) spring.D_b = problem.D_b[i].cast<Real>();
+    if (spring.a >= 0) spring.D_a = problem.D_a[i].template matrix<Real>();
+    if (spring.b >= 0) spring.D_b = problem.D_b[i].template matrix<Real>();
     spring.gap = problem.b.segment<3>(3 * i).cast<Real>();
     spring.c_n = law.compliance_normal;
     spring.c_t = law.compliance_tangential;

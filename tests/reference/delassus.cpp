@@ -10,12 +10,14 @@ namespace cupola {
 
 namespace {
 
-/// J^T (3 nc x 6 nb) of the whitened problem, in which N = J^T J.
-Eigen::SparseMatrix<double, Eigen::RowMajor> whitened_contact_matrix(const ContactProblem& p) {
+/// J^T (3 nc x 6 nb), N = J^T J.
+Eigen::SparseMatrix<double, Eigen::RowMajor> whitened_contact_matrix(const WhitenedProblem& white) {
+  const ContactProblem& p = white.given;
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(36 * p.num_contacts());
-  const auto add = [&entries](int i, int k, const Mat63& J) {
+  const auto add = [&](int i, int k, const Lever& D) {
     if (k == ContactProblem::kFixed) return;
+    const Mat63 J = white.L_inverse[k] * D.matrix();
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 6; ++r) entries.emplace_back(3 * i + c, 6 * k + r, J(r, c));
     }
@@ -47,13 +49,13 @@ double natural_map(const DelassusProblem& p, const VecX& gamma, const FlowRule& 
 }  // namespace
 
 DelassusProblem make_delassus(const ContactProblem& problem) {
-  const ContactProblem white = whiten(problem).problem;
+  const WhitenedProblem white = whiten(problem);
   const Eigen::SparseMatrix<double, Eigen::RowMajor> JT = whitened_contact_matrix(white);
   DelassusProblem result;
   result.W = Eigen::SparseMatrix<double>(JT * JT.transpose());
   for (Eigen::Index k = 0; k < problem.E.size(); ++k) result.W.coeffRef(k, k) += problem.E[k];
   result.W.makeCompressed();
-  result.q = relative_velocity(white, white.v_star) + problem.b;
+  result.q = relative_velocity(problem, problem.v_star) + problem.b;
   result.mu = problem.mu;
   return result;
 }

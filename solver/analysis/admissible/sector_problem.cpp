@@ -23,9 +23,7 @@ std::optional<VecX> SectorProblem::coefficients(const VecX& whole, bool mean) co
   constexpr double kSame =
       1e-6;  // of the largest coefficient; the symmetry itself is found to 1e-6 of a block
   const auto orbits = static_cast<Eigen::Index>(symmetry_.contact_of_orbit.size());
-  const auto frame = [this](int contact) -> Mat3 {
-    return scene_.problem.contacts.D_b[contact].topRows<3>();
-  };
+  const auto frame = [this](int contact) -> Mat3 { return scene_.problem.contacts.D_b[contact].frame; };
   const double different = kSame * (whole.size() > 0 ? whole.cwiseAbs().maxCoeff() : 0.0);
   VecX sum = VecX::Zero(3 * orbits);
   for (int i = 0; i < static_cast<int>(symmetry_.contacts.size()); ++i) {

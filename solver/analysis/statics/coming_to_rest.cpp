@@ -107,7 +107,7 @@ bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
     Eigen::Matrix<double, 6, 1> impulse = H * problem.v_star.segment<6>(6 * block);
     for (int i = 0; i < problem.num_contacts(); ++i) {
       if (problem.block_a[i] != block && problem.block_b[i] != block) continue;
-      const Mat63& D = problem.block_a[i] == block ? problem.D_a[i] : problem.D_b[i];
+      const Mat63 D = contact_columns(problem, i, block);
       const Mat63 DG = D * sticking_stiffness(contact_law(problem, i));
       H += DG * D.transpose();
       impulse -= DG * problem.b.segment<3>(3 * i);

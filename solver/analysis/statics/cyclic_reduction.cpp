@@ -5,12 +5,10 @@
 namespace cupola {
 namespace {
 
-/// Rotates the translational and the rotational half of generalised velocities, or of matrix columns.
-template <class Matrix>
-Matrix rotated(const Mat3& R, const Matrix& x) {
-  Matrix y = x;
-  y.template topRows<3>() = R * x.template topRows<3>();
-  y.template bottomRows<3>() = R * x.template bottomRows<3>();
+/// Rotates the translational and the rotational half of generalised velocities.
+Vec6 rotated(const Mat3& R, const Vec6& x) {
+  Vec6 y;
+  y << R * x.head<3>(), R * x.tail<3>();
   return y;
 }
 
@@ -39,22 +37,15 @@ ContactProblem reduce(const ContactProblem& problem, const CyclicSymmetry& symme
     reduced.mu[i] = problem.mu[row];
     if (!problem.strength.empty()) reduced.strength.push_back(problem.strength[row]);
     // u = D^T v and v = R v_representative, so that the columns of the representative are R^T D.
-    const auto side = [&](int block, const Mat63& D, int* orbit) -> Mat63 {
-      *orbit = block == ContactProblem::kFixed ? block : symmetry.blocks[block].orbit;
-      if (block == ContactProblem::kFixed) return D;
-      return rotated(symmetry.rotation(-symmetry.blocks[block].turns), D);
+    const auto add_side = [&](int block, const Lever& D, std::vector<int>* blocks,
+                              std::vector<Lever>* sides) {
+      const bool fixed = block == ContactProblem::kFixed;
+      blocks->push_back(fixed ? block : symmetry.blocks[block].orbit);
+      const Mat3 R = fixed ? Mat3::Identity() : symmetry.rotation(-symmetry.blocks[block].turns);
+      sides->push_back({R * D.frame, R * D.arm});
     };
-    int a = 0, b = 0;
-    Mat63 D_a = side(problem.block_a[row], problem.D_a[row], &a);
-    Mat63 D_b = side(problem.block_b[row], problem.D_b[row], &b);
-    if (a == b) {  // contact between a block and its own image
-      D_b += D_a;
-      a = ContactProblem::kFixed;
-    }
-    reduced.block_a.push_back(a);
-    reduced.block_b.push_back(b);
-    reduced.D_a.push_back(D_a);
-    reduced.D_b.push_back(D_b);
+    add_side(problem.block_a[row], problem.D_a[row], &reduced.block_a, &reduced.D_a);
+    add_side(problem.block_b[row], problem.D_b[row], &reduced.block_b, &reduced.D_b);
   }
   return reduced;
 }
@@ -82,11 +73,11 @@ ContactSolution expand(const ContactSolution& reduced, const ContactProblem& pro
   whole.v.resize(6 * problem.num_blocks());
   for (int i = 0; i < problem.num_blocks(); ++i) {
     const CyclicSymmetry::Image& image = symmetry.blocks[i];
-    const Eigen::Matrix<double, 6, 1> v = reduced.v.segment<6>(6 * image.orbit);
+    const Vec6 v = reduced.v.segment<6>(6 * image.orbit);
     whole.v.segment<6>(6 * i) = rotated(symmetry.rotation(image.turns), v);
   }
   whole.gamma.resize(3 * problem.num_contacts());
-  const auto frame = [&](int contact) -> Mat3 { return problem.D_b[contact].topRows<3>(); };
+  const auto frame = [&](int contact) -> const Mat3& { return problem.D_b[contact].frame; };
   for (int i = 0; i < problem.num_contacts(); ++i) {
     const CyclicSymmetry::Image& image = symmetry.contacts[i];
     const Vec3 impulse =

@@ -58,12 +58,10 @@ Vec3 made_admissible(const ContactLaw& law, const Vec3& gamma) {
 }
 
 /// Geometric stiffness of one side of a contact times h^2, for rotations about the centroid: the force f on
-/// the block acts on a point r that rotates with it. r follows from the columns of D, because the lower half
-/// of D is r x the upper half.
-Mat3 geometric_stiffness(const Mat63& D, const Vec3& gamma, double h) {
-  const Mat3 cross = D.bottomRows<3>() * D.topRows<3>().transpose();
-  const Vec3 r(-cross(1, 2), cross(0, 2), cross(1, 0));
-  const Vec3 f = h * (D.topRows<3>() * gamma);
+/// the block acts on a point r that rotates with it.
+Mat3 geometric_stiffness(const Lever& D, const Vec3& gamma, double h) {
+  const Vec3& r = D.arm;
+  const Vec3 f = h * (D.frame * gamma);
   return f.dot(r) * Mat3::Identity() - 0.5 * (f * r.transpose() + r * f.transpose());
 }
 
@@ -74,8 +72,8 @@ double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x)
   for (int i = 0; i < p.num_contacts(); ++i) {
     if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;
     Vec3 size = p.b.segment<3>(3 * i).cwiseAbs();
-    const auto add = [&](int k, const Mat63& D) {
-      if (k != ContactProblem::kFixed) size += D.cwiseAbs().transpose() * x.v.segment<6>(6 * k).cwiseAbs();
+    const auto add = [&](int k, const Lever& D) {
+      if (k != ContactProblem::kFixed) size += D.magnitude().transpose() * x.v.segment<6>(6 * k).cwiseAbs();
     };
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);
@@ -88,7 +86,7 @@ double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x)
 }  // namespace
 
 ForceProjection::ForceProjection(const ContactProblem& problem, VecX impulse)
-    : p_(problem), impulse_(std::move(impulse)), white_(problem.M), graph_(contact_graph(problem)) {}
+    : p_(problem), impulse_(std::move(impulse)), white_(whiten(problem)), graph_(contact_graph(problem)) {}
 
 bool ForceProjection::slides(const ContactSolution& x) const {
   for (int i = 0; i < p_.num_contacts(); ++i)
@@ -109,13 +107,13 @@ std::vector<Mat3> ForceProjection::stiffnesses(const ContactSolution& x) const {
 bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
   constexpr double kSlowest = 1e-3;    // 1/m, times gravity: squared growth rate that is not reported
   constexpr double kRounding = 1e-12;  // of the largest diagonal entry
-  BlockMatrix H = assemble_whitened_hessian(p_, white_, graph_, stiffnesses(x));
+  BlockMatrix H = assemble_hessian(white_, graph_, stiffnesses(x));
   double largest = 0.0;
   for (const Mat6& block : H.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
   const double shift = std::max(kSlowest * gravity * p_.h * p_.h, kRounding * largest);
   for (Mat6& block : H.diagonal) block.diagonal().array() += shift - 1.0;  // the Hessian contains I
   for (int i = 0; i < p_.num_contacts(); ++i) {
-    const auto add = [&](int k, const Mat63& D) {
+    const auto add = [&](int k, const Lever& D) {
       if (k == ContactProblem::kFixed) return;
       Mat6 K = Mat6::Zero();
       K.bottomRightCorner<3, 3>() = geometric_stiffness(D, x.gamma.segment<3>(3 * i), p_.h);
@@ -166,8 +164,8 @@ VecX ForceProjection::imbalance(const VecX& gamma) const {
   for (int k = 0; k < p_.num_blocks(); ++k) sum[k] = impulse_.segment<6>(6 * k).cast<long double>();
   for (int i = 0; i < p_.num_contacts(); ++i) {
     const Eigen::Matrix<long double, 3, 1> g = gamma.segment<3>(3 * i).cast<long double>();
-    const auto add = [&](int k, const Mat63& D) {
-      if (k != ContactProblem::kFixed) sum[k] += D.cast<long double>() * g;
+    const auto add = [&](int k, const Lever& D) {
+      if (k != ContactProblem::kFixed) D.add_impulse(g, sum[k]);
     };
     add(p_.block_a[i], p_.D_a[i]);
     add(p_.block_b[i], p_.D_b[i]);
@@ -183,7 +181,7 @@ std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat
                                                            double reduction) {
   constexpr int kMaxIterations = 200;
   const auto change = [&](const VecX& w) {
-    VecX gamma = relative_velocity(p_, white_.to_v(w));
+    VecX gamma = relative_velocity(white_, w);
     for (int i = 0; i < p_.num_contacts(); ++i)
       gamma.segment<3>(3 * i) = (S[i] * gamma.segment<3>(3 * i)).eval();
     return gamma;
@@ -196,7 +194,7 @@ std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat
   double rz = r.dot(z);
   for (int k = 0; k < kMaxIterations; ++k) {
     const VecX dg = change(direction);
-    const VecX product = white_.whiten_impulse(generalized_impulse(p_, dg));
+    const VecX product = generalized_impulse(white_, dg);
     const double curvature = direction.dot(product);
     if (!(curvature > 0.0)) return std::nullopt;
     const double alpha = rz / curvature;
@@ -213,7 +211,7 @@ std::optional<ContactSolution> ForceProjection::correction(const std::vector<Mat
 }
 
 bool ForceProjection::proves_equilibrium(const ContactSolution& x) {
-  return equilibrium_distance(p_, white_, graph_, impulse_, x.gamma, &preconditioner_) <= kProvenDistance;
+  return equilibrium_distance(white_, graph_, impulse_, x.gamma, &preconditioner_) <= kProvenDistance;
 }
 
 std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolution& x) {
@@ -228,8 +226,7 @@ std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolutio
   };
   make_admissible();
   if (!preconditioner_.has_factor() &&
-      !preconditioner_.factorize(graph_.pattern,
-                                 assemble_whitened_hessian(p_, white_, graph_, tangents(balanced))))
+      !preconditioner_.factorize(graph_.pattern, assemble_hessian(white_, graph_, tangents(balanced))))
     return std::nullopt;
   double remaining = 0.0;
   for (int round = 0; round < kRounds; ++round) {

@@ -44,7 +44,7 @@ class ForceProjection {
 
   const ContactProblem& p_;
   const VecX impulse_;
-  const Whitening white_;
+  const WhitenedProblem white_;
   const ContactGraph graph_;
   BlockCholesky preconditioner_;
 };

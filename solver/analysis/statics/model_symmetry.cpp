@@ -195,7 +195,7 @@ VecX ModelSymmetry::velocities(const VecX& v) const {
 }
 
 VecX ModelSymmetry::forces(const ContactProblem& problem, const VecX& gamma) const {
-  const auto frame = [&](int contact) -> Mat3 { return problem.D_b[contact].topRows<3>(); };
+  const auto frame = [&](int contact) -> const Mat3& { return problem.D_b[contact].frame; };
   VecX image(gamma.size());
   for (int i = 0; i < problem.num_contacts(); ++i) {
     const Vec3 force = R * (frame(i) * gamma.segment<3>(3 * i));

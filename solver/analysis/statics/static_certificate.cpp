@@ -90,7 +90,8 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   }
   const ContactProblem sector = symmetry ? reduce(problem, *symmetry) : ContactProblem{};
   const ContactProblem& p = symmetry ? sector : problem;
-  const ContactSolution x = symmetry ? restrict(solution, *symmetry) : solution;
+  const ContactSolution in_sector = symmetry ? restrict(solution, *symmetry) : ContactSolution{};
+  const ContactSolution& x = symmetry ? in_sector : solution;
   release_freed_memory();  // of the solve: the factor of a large model takes most of the peak
   ForceProjection projection(p, p.h * (symmetry ? restrict_loads(loads, *symmetry) : loads));
 

@@ -86,7 +86,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   set_role(role_of(solution.outcome), "", &frame);
   if (!equilibrium) return frame;
   const VecX u =
-      relative_velocity(solution.step.problem, solution.step_solution.v) + solution.step.support_velocity;
+      solution.step.with_supports(relative_velocity(solution.step.problem, solution.step_solution.v));
   for (size_t i = 0; i < frame.contacts.gap.size(); ++i) {
     frame.contacts.gap[i] += solution.h * u[3 * static_cast<Eigen::Index>(i)];
     if (model.joints.has_strength())

@@ -19,15 +19,18 @@ void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, 
 
 namespace cupola {
 
-ContactJacobian::ContactJacobian(const ContactProblem& problem, const ContactGraph& graph)
-    : problem_(problem),
+ContactJacobian::ContactJacobian(const WhitenedProblem& problem, const ContactGraph& graph)
+    : white_(problem),
+      problem_(problem.given),
       graph_(graph),
-      G_(problem.num_contacts(), Mat3::Zero()),
-      J_{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero()), {}} {
+      G_(problem_.num_contacts(), Mat3::Zero()),
+      J_{std::vector<Mat6>(problem_.num_blocks(), Mat6::Identity()),
+         std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero()),
+         {}} {
   J_.upper = J_.lower;
 }
 
-/// Marks the 6x6 blocks that change, sets them to their parts without contacts, and keeps G.
+/// Marks the 6x6 blocks that change, sets them to zero, and keeps G.
 void ContactJacobian::mark_changed(const std::vector<Mat3>& G) {
   block_changes_.assign(problem_.num_blocks(), 0);
   pair_changes_.assign(graph_.pattern.num_pairs(), 0);
@@ -37,7 +40,7 @@ void ContactJacobian::mark_changed(const std::vector<Mat3>& G) {
     for (const int block : {problem_.block_a[i], problem_.block_b[i]}) {
       if (block == ContactProblem::kFixed) continue;
       block_changes_[block] = 1;
-      J_.diagonal[block] = problem_.M[block];
+      J_.diagonal[block].setZero();
     }
     const int pair = graph_.pair_of_contact[i];
     if (pair < 0) continue;
@@ -53,22 +56,39 @@ void ContactJacobian::sum_marked() {
   };
   for (int i = 0; i < problem_.num_contacts(); ++i) {
     const int a = problem_.block_a[i], b = problem_.block_b[i], pair = graph_.pair_of_contact[i];
-    const bool pair_changes = pair >= 0 && pair_changes_[pair] != 0;
     if (!changes(a) && !changes(b)) continue;  // nor does the pair
     if (G_[i].isZero(0.0)) continue;
-    const Mat63 &D_a = problem_.D_a[i], &D_b = problem_.D_b[i];
-    Mat63 D_a_G, D_b_G;
+    Mat63 D_a, D_b, D_a_G, D_b_G;
     if (changes(a)) {
-      D_a_G.noalias() = D_a * G_[i];
-      J_.diagonal[a].noalias() += D_a_G * D_a.transpose();
+      D_a = contact_columns(problem_, i, a);
+      D_a_G = D_a.lazyProduct(G_[i]);
+      J_.diagonal[a] += D_a_G.lazyProduct(D_a.transpose());
     }
-    if (changes(b)) {
-      D_b_G.noalias() = D_b * G_[i];
-      J_.diagonal[b].noalias() += D_b_G * D_b.transpose();
+    if (changes(b) && b != a) {
+      D_b = contact_columns(problem_, i, b);
+      D_b_G = D_b.lazyProduct(G_[i]);
+      J_.diagonal[b] += D_b_G.lazyProduct(D_b.transpose());
     }
-    if (!pair_changes) continue;  // both blocks change with it
-    (a < b ? J_.upper : J_.lower)[pair].noalias() += D_a_G * D_b.transpose();
-    (a < b ? J_.lower : J_.upper)[pair].noalias() += D_b_G * D_a.transpose();
+    if (pair < 0 || pair_changes_[pair] == 0) continue;  // both blocks change with it
+    (a < b ? J_.upper : J_.lower)[pair] += D_a_G.lazyProduct(D_b.transpose());
+    (a < b ? J_.lower : J_.upper)[pair] += D_b_G.lazyProduct(D_a.transpose());
+  }
+}
+
+void ContactJacobian::whiten_marked() {
+  const auto whiten = [&](int row, int column, Mat6* block) {
+    *block = (white_.L_inverse[row] * *block * white_.L_inverse[column].transpose()).eval();
+  };
+  const BlockPattern& pattern = graph_.pattern;
+  for (int column = 0; column < pattern.num_blocks(); ++column) {
+    if (block_changes_[column] == 0) continue;
+    whiten(column, column, &J_.diagonal[column]);
+    J_.diagonal[column].diagonal().array() += 1.0;
+    for (int pair = pattern.column_start[column]; pair < pattern.column_start[column + 1]; ++pair) {
+      if (pair_changes_[pair] == 0) continue;
+      whiten(pattern.row[pair], column, &J_.lower[pair]);
+      whiten(column, pattern.row[pair], &J_.upper[pair]);
+    }
   }
 }
 
@@ -76,6 +96,7 @@ const UnsymmetricBlockMatrix& ContactJacobian::at(const std::vector<Mat3>& G) {
   CUPOLA_ASSERT(std::ssize(G) == problem_.num_contacts());
   mark_changed(G);
   sum_marked();
+  whiten_marked();
   return J_;
 }
 

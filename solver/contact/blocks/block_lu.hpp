@@ -14,17 +14,19 @@ struct UnsymmetricBlockMatrix {
   std::vector<Mat6> upper;     ///< block (column, row) of each pair (num_pairs)
 };
 
-/// M + sum_i D_i G_i D_i^T of one problem for a sequence of unsymmetric G. Only the 6x6 blocks with a contact
+/// I + sum_i J_i G_i J_i^T of one problem for a sequence of unsymmetric G. Only the 6x6 blocks with a contact
 /// whose G has changed are summed anew, in the order of the contacts: the bits do not depend on the sequence.
 class ContactJacobian {
  public:
-  ContactJacobian(const ContactProblem& problem, const ContactGraph& graph);
+  ContactJacobian(const WhitenedProblem& problem, const ContactGraph& graph);
   const UnsymmetricBlockMatrix& at(const std::vector<Mat3>& G);
 
  private:
   void mark_changed(const std::vector<Mat3>& G);
   void sum_marked();
+  void whiten_marked();
 
+  const WhitenedProblem& white_;
   const ContactProblem& problem_;
   const ContactGraph& graph_;
   std::vector<Mat3> G_;  ///< of J_ (nc)

@@ -13,7 +13,8 @@ namespace cupola {
 namespace {
 
 bool joins_two_free(const ContactProblem& p, int i) {
-  return p.block_a[i] != ContactProblem::kFixed && p.block_b[i] != ContactProblem::kFixed;
+  const int a = p.block_a[i], b = p.block_b[i];
+  return a != ContactProblem::kFixed && b != ContactProblem::kFixed && a != b;
 }
 
 std::pair<int, int> column_and_row(const ContactProblem& p, int i) {
@@ -62,42 +63,59 @@ ContactGraph contact_graph(const ContactProblem& problem) {
   return graph;
 }
 
-BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
-                             const std::vector<Mat3>& G) {
-  BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
+namespace {
+
+constexpr double kOperationsPerContact = 1000.0;
+
+/// Adds sum_i D_i G_i D_i^T. Each thread visits all contacts and adds to its own range of blocks.
+void add_stiffness(const ContactProblem& problem, const ContactGraph& graph, const std::vector<Mat3>& G,
+                   BlockMatrix* H) {
   CUPOLA_ASSERT(std::ssize(G) == problem.num_contacts());
   CUPOLA_ASSERT(std::ssize(graph.pair_of_contact) == problem.num_contacts());
-  // Each thread visits all contacts and adds to its own range of blocks.
-  constexpr double kOperationsPerContact = 1000.0;
   share_sums(kOperationsPerContact * problem.num_contacts(), problem.num_blocks(), [&](int first, int last) {
     const auto in_range = [&](int block) { return first <= block && block < last; };  // false for kFixed
     for (int i = 0; i < problem.num_contacts(); ++i) {
-      if (G[i].isZero(0.0)) continue;
       const int a = problem.block_a[i], b = problem.block_b[i];
-      const Mat63 &D_a = problem.D_a[i], &D_b = problem.D_b[i];
-      if (in_range(a)) {
-        const Mat63 DG = D_a.lazyProduct(G[i]);
-        H.diagonal[a] += DG.lazyProduct(D_a.transpose());
+      if ((!in_range(a) && !in_range(b)) || G[i].isZero(0.0)) continue;
+      Mat63 D_a, D_b, D_a_G, D_b_G;
+      if (a != ContactProblem::kFixed) {
+        D_a = contact_columns(problem, i, a);
+        D_a_G = D_a.lazyProduct(G[i]);
       }
-      if (in_range(b)) {
-        const Mat63 DG = D_b.lazyProduct(G[i]);
-        H.diagonal[b] += DG.lazyProduct(D_b.transpose());
+      if (b != ContactProblem::kFixed && b != a) {
+        D_b = contact_columns(problem, i, b);
+        D_b_G = D_b.lazyProduct(G[i]);
       }
+      if (in_range(a)) H->diagonal[a] += D_a_G.lazyProduct(D_a.transpose());
+      if (in_range(b) && b != a) H->diagonal[b] += D_b_G.lazyProduct(D_b.transpose());
       const int pair = graph.pair_of_contact[i];
       if (pair < 0 || !in_range(std::min(a, b))) continue;
-      const Mat63 DG = (a > b ? D_a : D_b).lazyProduct(G[i]);
-      H.lower[pair] += DG.lazyProduct((a > b ? D_b : D_a).transpose());
+      H->lower[pair] += (a > b ? D_a_G : D_b_G).lazyProduct((a > b ? D_b : D_a).transpose());
     }
   });
+}
+
+BlockMatrix zero_matrix(const BlockPattern& pattern) {
+  return {std::vector<Mat6>(pattern.num_blocks(), Mat6::Zero()),
+          std::vector<Mat6>(pattern.num_pairs(), Mat6::Zero())};
+}
+
+}  // namespace
+
+BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
+                             const std::vector<Mat3>& G) {
+  BlockMatrix H{problem.M, std::vector<Mat6>(graph.pattern.num_pairs(), Mat6::Zero())};
+  add_stiffness(problem, graph, G, &H);
   return H;
 }
 
-BlockMatrix assemble_whitened_hessian(const ContactProblem& problem, const Whitening& white,
-                                      const ContactGraph& graph, const std::vector<Mat3>& G) {
+BlockMatrix assemble_stiffness(const WhitenedProblem& problem, const ContactGraph& graph,
+                               const std::vector<Mat3>& G) {
   constexpr double kOperationsPerColumn = 4000.0;
-  BlockMatrix H = assemble_hessian(problem, graph, G);
-  const std::vector<Mat6>& to_w = white.L_inverse;
-  const int nb = problem.num_blocks();
+  BlockMatrix H = zero_matrix(graph.pattern);
+  add_stiffness(problem.given, graph, G, &H);
+  const std::vector<Mat6>& to_w = problem.L_inverse;
+  const int nb = graph.pattern.num_blocks();
   share_range(kOperationsPerColumn * nb, nb, [&](int first, int last) {
     for (int column = first; column < last; ++column) {
       const auto whiten = [&](int row, Mat6* block) {
@@ -108,6 +126,13 @@ BlockMatrix assemble_whitened_hessian(const ContactProblem& problem, const White
         whiten(graph.pattern.row[p], &H.lower[p]);
     }
   });
+  return H;
+}
+
+BlockMatrix assemble_hessian(const WhitenedProblem& problem, const ContactGraph& graph,
+                             const std::vector<Mat3>& G) {
+  BlockMatrix H = assemble_stiffness(problem, graph, G);
+  for (Mat6& block : H.diagonal) block.diagonal().array() += 1.0;
   return H;
 }
 

@@ -29,7 +29,7 @@ struct BlockMatrix {
 /// The pattern of D D^T, and the pair that each contact contributes to.
 struct ContactGraph {
   BlockPattern pattern;
-  std::vector<int> pair_of_contact;  ///< -1 if one side is fixed (nc)
+  std::vector<int> pair_of_contact;  ///< -1 if one side is fixed, or both are the same block (nc)
 };
 ContactGraph contact_graph(const ContactProblem& problem);
 
@@ -37,9 +37,12 @@ ContactGraph contact_graph(const ContactProblem& problem);
 BlockMatrix assemble_hessian(const ContactProblem& problem, const ContactGraph& graph,
                              const std::vector<Mat3>& G);
 
-/// The same in whitened unknowns, I + sum_i J_i G_i J_i^T, without J, which takes as much memory as D.
-BlockMatrix assemble_whitened_hessian(const ContactProblem& problem, const Whitening& white,
-                                      const ContactGraph& graph, const std::vector<Mat3>& G);
+/// In whitened unknowns, sum_i J_i G_i J_i^T.
+BlockMatrix assemble_stiffness(const WhitenedProblem& problem, const ContactGraph& graph,
+                               const std::vector<Mat3>& G);
+/// I + assemble_stiffness().
+BlockMatrix assemble_hessian(const WhitenedProblem& problem, const ContactGraph& graph,
+                             const std::vector<Mat3>& G);
 
 /// Matrix times vector (6 nb).
 VecX multiply(const BlockPattern& pattern, const BlockMatrix& matrix, const VecX& x);

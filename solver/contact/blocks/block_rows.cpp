@@ -11,8 +11,6 @@ namespace cupola {
 
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-
 constexpr double kOperationsPerEntry = 72.0;  // of a product with a vector
 constexpr double kOperationsPerProduct =
     3000.0;  // of an entry of the left matrix with a row of the right one

@@ -10,29 +10,17 @@ namespace cupola {
 
 namespace {
 
-/// Frame and arm of a contact in the frame of a block, from the columns [f; r x f] of +-D.
-struct Lever {
-  Mat3 frame = Mat3::Identity();
-  Vec3 arm = Vec3::Zero();
-  bool valid = false;
-};
-
-Lever lever(const Mat63& D, double sign) {
+/// Whether the axes are orthonormal. In plane problems they are not.
+bool is_in_space(const Lever& D) {
   constexpr double kRounding = 1e-9;
-  Lever lever;
-  lever.frame = sign * D.topRows<3>();
-  const Mat3 S = D.bottomRows<3>() * D.topRows<3>().transpose();  // [r]x
-  lever.arm = 0.5 * Vec3(S(2, 1) - S(1, 2), S(0, 2) - S(2, 0), S(1, 0) - S(0, 1));
-  lever.valid = (lever.frame.transpose() * lever.frame - Mat3::Identity()).norm() <= kRounding &&
-                (S + S.transpose()).norm() <= kRounding * (1.0 + S.norm());
-  return lever;
+  return (D.frame.transpose() * D.frame - Mat3::Identity()).norm() <= kRounding;
 }
 
 /// One contact of each pair of touching blocks, seen from the block with the smaller number (column) and from
 /// the other one (row).
 struct Touch {
   int contact = -1;
-  Lever of_column, of_row;
+  Lever of_column, of_row;  // with the frame of block b
 };
 
 /// Touching blocks of each block, with the number of the pair.
@@ -47,8 +35,8 @@ std::vector<Touch> touches(const ContactProblem& p, const ContactGraph& graph) {
   for (int i = 0; i < p.num_contacts(); ++i) {
     const int pair = graph.pair_of_contact[i];
     if (pair < 0 || touch[pair].contact >= 0) continue;
-    const Lever a = lever(p.D_a[i], -1.0), b = lever(p.D_b[i], 1.0);
-    if (!a.valid || !b.valid) return {};
+    const Lever a{-p.D_a[i].frame, p.D_a[i].arm}, b = p.D_b[i];
+    if (!is_in_space(a) || !is_in_space(b)) return {};
     const bool a_first = p.block_a[i] < p.block_b[i];
     touch[pair] = {i, a_first ? a : b, a_first ? b : a};
   }
@@ -77,23 +65,18 @@ Neighbours neighbours(const BlockPattern& pattern) {
   return result;
 }
 
-Mat3 cross(const Vec3& r) {
-  Mat3 S;
-  S << 0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0;
-  return S;
-}
-
 }  // namespace
 
 Mat6 moved_centre(const Vec3& from, const Vec3& to) {
   Mat6 T = Mat6::Identity();
-  T.topRightCorner<3, 3>() = cross(from - to);  // v + omega x (to - from)
+  T.topRightCorner<3, 3>() = cross_matrix(from - to);  // v + omega x (to - from)
   return T;
 }
 
-RigidMotions rigid_motions(const ContactProblem& p, const ContactGraph& graph, const std::vector<Mat6>& L) {
+RigidMotions rigid_motions(const WhitenedProblem& problem, const ContactGraph& graph) {
+  const ContactProblem& p = problem.given;
   const int nb = p.num_blocks();
-  CUPOLA_ASSERT(std::ssize(L) == nb && graph.pattern.num_blocks() == nb);
+  CUPOLA_ASSERT(graph.pattern.num_blocks() == nb);
   const std::vector<Touch> touch = touches(p, graph);
   if (static_cast<int>(touch.size()) != graph.pattern.num_pairs()) return {};
   const Neighbours touching = neighbours(graph.pattern);
@@ -130,7 +113,7 @@ RigidMotions rigid_motions(const ContactProblem& p, const ContactGraph& graph, c
   for (int k = 0; k < nb; ++k) {
     Mat6 own = Mat6::Zero();
     own.topLeftCorner<3, 3>() = own.bottomRightCorner<3, 3>() = turn[k].transpose();
-    motions.motion[k] = L[k].triangularView<Eigen::Lower>().transpose() * own;
+    motions.motion[k] = problem.times_L_transposed(k, own);
   }
   return motions;
 }

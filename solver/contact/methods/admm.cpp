@@ -19,22 +19,23 @@ namespace cupola {
 namespace {
 
 struct AlternatingDirections {
-  const ContactProblem& p;  ///< whitened
+  const WhitenedProblem& white;
+  const ContactProblem& p = white.given;
   ContactGraph graph;
   BlockCholesky factor;
   VecX base;  ///< E + 1e-4 trace N_ii / 3 (3 nc): R = rho / base
   double rho = 1.0;
   VecX w, y, gamma, z;
 
-  explicit AlternatingDirections(const ContactProblem& whitened);
+  explicit AlternatingDirections(const WhitenedProblem& problem);
   bool factorize();
   void iterate();
   /// sqrt(primal residual / dual residual), both in units of impulse; > 1 requires a larger rho.
   double imbalance = 1.0;
 };
 
-AlternatingDirections::AlternatingDirections(const ContactProblem& whitened)
-    : p(whitened), graph(contact_graph(whitened)), base(whitened.E) {
+AlternatingDirections::AlternatingDirections(const WhitenedProblem& problem)
+    : white(problem), graph(contact_graph(p)), base(p.E) {
   constexpr double kShare = 1e-4;
   const VecX traces = delassus_traces(p);
   for (int i = 0; i < p.num_contacts(); ++i) base.segment<3>(3 * i).array() += kShare * traces[i] / 3.0;
@@ -44,14 +45,14 @@ bool AlternatingDirections::factorize() {
   std::vector<Mat3> R(p.num_contacts());
   for (int i = 0; i < p.num_contacts(); ++i)
     R[i] = (rho / base.segment<3>(3 * i).array()).matrix().asDiagonal();
-  return factor.factorize(graph.pattern, assemble_hessian(p, graph, R));
+  return factor.factorize(graph.pattern, assemble_hessian(white, graph, R));
 }
 
 void AlternatingDirections::iterate() {
   constexpr double kOverRelaxation = 1.6;
   const VecX R = rho * base.cwiseInverse();
-  w = factor.solve(p.v_star + generalized_impulse(p, gamma + R.cwiseProduct(z - p.b)));
-  y = relative_velocity(p, w) + p.b;
+  w = factor.solve(white.w_star + generalized_impulse(white, gamma + R.cwiseProduct(z - p.b)));
+  y = relative_velocity(white, w) + p.b;
   const VecX relaxed = kOverRelaxation * y + (1.0 - kOverRelaxation) * z;
   const VecX shifted = relaxed - gamma.cwiseQuotient(R);
   VecX next(gamma.size());
@@ -81,11 +82,11 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   const int max_iterations = options.max_iterations.value_or(2000);
 
   const WhitenedProblem white = whiten(problem);
-  AlternatingDirections admm(white.problem);
+  AlternatingDirections admm(white);
   const bool warm = solution->gamma.size() == problem.b.size() && solution->v.size() == problem.v_star.size();
   admm.gamma = warm ? solution->gamma : VecX::Zero(problem.b.size());
-  admm.w = warm ? white.to_w(solution->v) : white.problem.v_star;
-  admm.z = warm ? VecX(relative_velocity(white.problem, admm.w) + problem.b) : problem.b;
+  admm.w = warm ? white.to_w(solution->v) : white.w_star;
+  admm.z = warm ? VecX(relative_velocity(white, admm.w) + problem.b) : problem.b;
 
   double best = std::numeric_limits<double>::infinity();
   bool valid = admm.factorize();

@@ -9,7 +9,7 @@
 
 namespace cupola {
 
-/// Solves J d = F, J = I + D G D^T, for a whitened problem (M = I) and a sequence of stiffnesses G that are
+/// Solves J d = F, J = I + L^-1 D G D^T L^-T, for a whitened problem and a sequence of stiffnesses G that are
 /// unsymmetric where contacts slide.
 class CoulombDirection {
  public:
@@ -17,7 +17,7 @@ class CoulombDirection {
   enum class First { unsymmetric, symmetric };
 
   /// Begins with the factor of `lu`, if it has one, and leaves its last LU factor there.
-  CoulombDirection(const ContactProblem& problem, const ContactGraph& graph, BlockLu* lu,
+  CoulombDirection(const WhitenedProblem& problem, const ContactGraph& graph, BlockLu* lu,
                    First first = First::unsymmetric)
       : problem_(problem),
         graph_(graph),
@@ -44,7 +44,7 @@ class CoulombDirection {
                       SolveSummary* summary);
   bool factorize_symmetric(const std::vector<Mat3>& G, SolveSummary* summary);
 
-  const ContactProblem& problem_;
+  const WhitenedProblem& problem_;
   const ContactGraph& graph_;
   ContactJacobian jacobian_;
   BlockCholesky symmetric_;

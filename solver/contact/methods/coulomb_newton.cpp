@@ -113,10 +113,10 @@ class CoulombSolve {
   SolveSummary summary_;
   const WhitenedProblem white_ = whiten(problem_);
   const ContactGraph graph_ = contact_graph(problem_);
-  CoulombSubproblem sub_{white_.problem, options_.law.dilatancy, root_mean_mass(problem_),
+  CoulombSubproblem sub_{white_, options_.law.dilatancy, root_mean_mass(problem_),
                          VecX::Zero(problem_.num_contacts()), VecX::Zero(problem_.b.size())};
   // A guess without impulses is that of a single solve, for which an LU factor would not be kept.
-  CoulombDirection direction_{white_.problem, graph_, kept_.lu,
+  CoulombDirection direction_{white_, graph_, kept_.lu,
                               solution_->gamma.size() == 0 ? CoulombDirection::First::symmetric
                                                            : CoulombDirection::First::unsymmetric};
   BestSolution best_{problem_, white_, options_, solution_};
@@ -124,7 +124,7 @@ class CoulombSolve {
   const double scale_ = sub_.root_mass * options_.reference_speed;
   const double tolerance_ = kMargin * options_.tolerance * scale_;  // of each block of F
   bool sticks_ = false;
-  VecX w_ = white_.problem.v_star;
+  VecX w_ = white_.w_star;
   VecX diagonal_;  // of the Delassus blocks, 1/kg (nc)
 };
 

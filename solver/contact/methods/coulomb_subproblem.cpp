@@ -9,27 +9,27 @@
 namespace cupola {
 
 VecX CoulombSubproblem::velocity(const VecX& w) const {
-  VecX y = relative_velocity(p, w) + p.b;
-  for (int i = 0; i < p.num_contacts(); ++i) y.segment<3>(3 * i) -= R[i] * centre.segment<3>(3 * i);
+  VecX y = relative_velocity(white, w) + white.given.b;
+  for (int i = 0; i < R.size(); ++i) y.segment<3>(3 * i) -= R[i] * centre.segment<3>(3 * i);
   return y;
 }
 
 VecX CoulombSubproblem::impulses(const VecX& y) const {
   VecX gamma(y.size());
-  for (int i = 0; i < p.num_contacts(); ++i)
+  for (int i = 0; i < R.size(); ++i)
     gamma.segment<3>(3 * i) = contact_impulse(contact(i), y.segment<3>(3 * i));
   return gamma;
 }
 
 std::vector<Mat3> CoulombSubproblem::stiffnesses(const VecX& y) const {
-  std::vector<Mat3> G(p.num_contacts());
-  for (int i = 0; i < p.num_contacts(); ++i) G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i));
+  std::vector<Mat3> G(white.given.num_contacts());
+  for (int i = 0; i < R.size(); ++i) G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i));
   return G;
 }
 
 double CoulombSubproblem::distance_to_centre(const VecX& gamma) const {
   double largest = 0.0;
-  for (int i = 0; i < p.num_contacts(); ++i)
+  for (int i = 0; i < R.size(); ++i)
     largest = std::max(largest, R[i] * (gamma - centre).segment<3>(3 * i).norm());
   return root_mass * largest;
 }
@@ -38,12 +38,12 @@ CoulombPoint point_at(const CoulombSubproblem& sub, VecX w) {
   CoulombPoint point{std::move(w), {}, {}, {}};
   point.y = sub.velocity(point.w);
   point.gamma = sub.impulses(point.y);
-  point.F = point.w - sub.p.v_star - generalized_impulse(sub.p, point.gamma);
+  point.F = point.w - sub.white.w_star - generalized_impulse(sub.white, point.gamma);
   return point;
 }
 
 StickingSystem sticking_system(const CoulombSubproblem& sub) {
-  const ContactProblem& p = sub.p;
+  const ContactProblem& p = sub.white.given;
   StickingSystem system;
   const VecX y = sub.velocity(VecX::Zero(p.v_star.size()));
   VecX impulse(p.b.size());
@@ -51,7 +51,7 @@ StickingSystem sticking_system(const CoulombSubproblem& sub) {
     system.G.push_back(sticking_stiffness(sub.contact(i)));
     impulse.segment<3>(3 * i) = -system.G[i] * y.segment<3>(3 * i);
   }
-  system.rhs = p.v_star + generalized_impulse(p, impulse);
+  system.rhs = sub.white.w_star + generalized_impulse(sub.white, impulse);
   return system;
 }
 
@@ -61,7 +61,7 @@ bool keeps_sticking(const CoulombSubproblem& sub, const CoulombPoint& point) {
   constexpr double kShare = 0.03;
   constexpr double kRounding = 1e-12;
   for (Eigen::Index k = 0; k < point.F.size(); k += 6) {
-    const auto free = sub.p.v_star.segment<6>(k);
+    const auto free = sub.white.w_star.segment<6>(k);
     const double by_contacts = (point.w.segment<6>(k) - free).norm();
     if (!(point.F.segment<6>(k).norm() <= kShare * by_contacts + kRounding * free.norm())) return false;
   }

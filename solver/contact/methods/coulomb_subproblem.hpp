@@ -12,13 +12,14 @@ namespace cupola {
 ///
 ///     F(w) = w - v_star - D Gamma(D^T w + b - R centre) = 0,    Gamma of compliance E + R
 struct CoulombSubproblem {
-  const ContactProblem& p;
+  const WhitenedProblem& white;
   double dilatancy;
   double root_mass;  ///< root_mean_mass() of the given problem, sqrt(kg)
   VecX R;            ///< 1/kg (nc)
   VecX centre;       ///< gamma_k (3 nc)
 
   ContactLaw contact(int i) const {
+    const ContactProblem& p = white.given;
     ContactLaw law = contact_law(p, i, p.E[3 * i] + R[i], p.E[3 * i + 1] + R[i]);
     law.dilatancy = dilatancy;
     return law;

@@ -14,33 +14,30 @@
 namespace cupola {
 
 VecX DualProblem::times(const VecX& gamma) const {
-  const ContactProblem& p = white.problem;
-  return relative_velocity(p, generalized_impulse(p, gamma)) + p.E.cwiseProduct(gamma);
+  return relative_velocity(white, generalized_impulse(white, gamma)) + white.given.E.cwiseProduct(gamma);
 }
 
 VecX DualProblem::project(const VecX& x) const {
   VecX result(x.size());
-  for (int i = 0; i < white.problem.num_contacts(); ++i) {
-    const ContactLaw metric = contact_law(white.problem, i, B[3 * i], B[3 * i + 1]);
+  for (int i = 0; i < white.given.num_contacts(); ++i) {
+    const ContactLaw metric = contact_law(white.given, i, B[3 * i], B[3 * i + 1]);
     result.segment<3>(3 * i) = project_on_admissible(metric, x.segment<3>(3 * i));
   }
   return result;
 }
 
 VecX DualProblem::velocities(const VecX& gamma) const {
-  return white.to_v(white.problem.v_star + generalized_impulse(white.problem, gamma));
+  return white.to_v(white.w_star + generalized_impulse(white, gamma));
 }
 
 DualProblem make_dual_problem(const ContactProblem& problem) {
   DualProblem dual{whiten(problem), {}, {}, ErrorMeasure::force_error};
   if (smallest_compliance(problem) == 0.0) dual.measure = ErrorMeasure::contact_law;
-  const ContactProblem& p = dual.white.problem;
-  dual.q = relative_velocity(p, p.v_star) + p.b;
-  dual.B = p.E;
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    Vec3 diagonal = Vec3::Zero();
-    if (p.block_a[i] != ContactProblem::kFixed) diagonal += p.D_a[i].colwise().squaredNorm().transpose();
-    if (p.block_b[i] != ContactProblem::kFixed) diagonal += p.D_b[i].colwise().squaredNorm().transpose();
+  dual.q = relative_velocity(problem, problem.v_star) + problem.b;
+  dual.B = problem.E;
+  const std::vector<Mat3> N = delassus_blocks(problem);
+  for (int i = 0; i < problem.num_contacts(); ++i) {
+    Vec3 diagonal = N[i].diagonal();
     diagonal[1] = diagonal[2] = 0.5 * (diagonal[1] + diagonal[2]);
     dual.B.segment<3>(3 * i) += diagonal;
   }
@@ -48,7 +45,7 @@ DualProblem make_dual_problem(const ContactProblem& problem) {
 }
 
 double dual_accuracy(const DualProblem& dual, const VecX& gamma, const VecX& g) {
-  const ContactProblem& p = dual.white.problem;
+  const ContactProblem& p = dual.white.given;
   CUPOLA_ASSERT(gamma.size() == p.b.size() && g.size() == p.b.size());
   const bool certifiable = dual.measure == ErrorMeasure::force_error;
   const VecX traces = first_rigid_contact(p) ? delassus_traces(p) : VecX();

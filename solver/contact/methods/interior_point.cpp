@@ -25,8 +25,8 @@ struct Step {
 
 class InteriorPoint {
  public:
-  InteriorPoint(const ContactProblem& p, const SolveOptions& options, SolveSummary* summary)
-      : p_(p), options_(options), summary_(*summary), graph_(contact_graph(p)) {}
+  InteriorPoint(const WhitenedProblem& problem, const SolveOptions& options, SolveSummary* summary)
+      : white_(problem), options_(options), summary_(*summary), graph_(contact_graph(p_)) {}
 
   bool start();  ///< all-stick velocities, with impulses and slacks moved into their cones
   void run();
@@ -41,7 +41,8 @@ class InteriorPoint {
   double mean_elastic_work() const;
   bool should_stop();
 
-  const ContactProblem& p_;
+  const WhitenedProblem& white_;
+  const ContactProblem& p_ = white_.given;
   const SolveOptions& options_;
   SolveSummary& summary_;
   ContactGraph graph_;
@@ -81,10 +82,10 @@ bool InteriorPoint::start() {
     impulse.segment<3>(3 * i) = -G[i] * p_.b.segment<3>(3 * i);
   }
   ++summary_.factorizations;
-  if (!factor_.factorize(graph_.pattern, assemble_hessian(p_, graph_, G))) return false;
-  w_ = factor_.solve(p_.v_star + generalized_impulse(p_, impulse));
+  if (!factor_.factorize(graph_.pattern, assemble_hessian(white_, graph_, G))) return false;
+  w_ = factor_.solve(white_.w_star + generalized_impulse(white_, impulse));
 
-  const VecX y = relative_velocity(p_, w_) + p_.b;
+  const VecX y = relative_velocity(white_, w_) + p_.b;
   double mean_gamma = 0.0, mean_y = 0.0;
   for (int i = 0; i < nc; ++i) {
     mean_gamma += (G[i] * y.segment<3>(3 * i)).norm() / nc;
@@ -102,8 +103,8 @@ bool InteriorPoint::start() {
 
 void InteriorPoint::update_residuals() {
   const VecX impulses = gamma();
-  r_d_ = w_ - p_.v_star - generalized_impulse(p_, impulses);
-  r_p_ = relative_velocity(p_, w_) + p_.b + p_.E.cwiseProduct(impulses);
+  r_d_ = w_ - white_.w_star - generalized_impulse(white_, impulses);
+  r_p_ = relative_velocity(white_, w_) + p_.b + p_.E.cwiseProduct(impulses);
   for (int i = 0; i < p_.num_contacts(); ++i) {
     const ConicContact& contact = contacts_[i];
     if (contact.frictionless) {
@@ -122,7 +123,7 @@ bool InteriorPoint::factorize() {
     G[i] = contacts_[i].G;
   }
   ++summary_.factorizations;
-  return factor_.factorize(graph_.pattern, assemble_hessian(p_, graph_, G));
+  return factor_.factorize(graph_.pattern, assemble_hessian(white_, graph_, G));
 }
 
 /// Newton direction of the scaled system for the right-hand sides d, and the longest step that stays in the
@@ -136,8 +137,9 @@ Step InteriorPoint::direction(const std::vector<Vec3>& d) const {
   VecX G_rhs(rhs.size());
   for (int i = 0; i < p_.num_contacts(); ++i)
     G_rhs.segment<3>(3 * i) = contacts_[i].G * rhs.segment<3>(3 * i);
-  Step step{factor_.solve(generalized_impulse(p_, G_rhs) - r_d_), VecX(rhs.size()), VecX(rhs.size()), 10.0};
-  const VecX dy = relative_velocity(p_, step.w);
+  Step step{factor_.solve(generalized_impulse(white_, G_rhs) - r_d_), VecX(rhs.size()), VecX(rhs.size()),
+            10.0};
+  const VecX dy = relative_velocity(white_, step.w);
   for (int i = 0; i < p_.num_contacts(); ++i) {
     const ConicContact& contact = contacts_[i];
     const Vec3 d_gamma = contact.to_cone.cwiseProduct(contact.G * (rhs - dy).segment<3>(3 * i));
@@ -248,7 +250,7 @@ SolveSummary solve_interior_point(const ContactProblem& problem, const SolveOpti
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
   const WhitenedProblem white = whiten(problem);
-  InteriorPoint method(white.problem, options, &summary);
+  InteriorPoint method(white, options, &summary);
   if (problem.num_contacts() == 0) {
     *solution = {problem.v_star, VecX(0)};
     summary.ending = SolveEnding::converged;

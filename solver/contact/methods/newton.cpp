@@ -76,7 +76,7 @@ class Stagnation {
 
 /// State of one solve, shared by the stages of the loop.
 struct NewtonLoop {
-  const ContactProblem& p;  ///< whitened
+  const WhitenedProblem& white;
   const SolveOptions& options;
   ContactGraph graph;
   double residual_scale;  ///< momentum residual of one unit of block gradient
@@ -87,7 +87,7 @@ struct NewtonLoop {
 
   double residual(const PrimalPoint& point) const { return point.largest_block_gradient * residual_scale; }
 
-  bool uses_multigrid() const { return options.multigrid.value_or(has_many_blocks(p)); }
+  bool uses_multigrid() const { return options.multigrid.value_or(has_many_blocks(white.given)); }
   bool lags_factor() const { return options.lag_factor && motions.empty(); }
   int max_iterations() const { return options.max_iterations.value_or(kNewtonIterations); }
   bool all_stick_start(VecX* w);
@@ -102,12 +102,13 @@ struct NewtonLoop {
 /// than free fall: a static dome with gaps of 1e-4 m takes 19 iterations instead of 61.
 bool NewtonLoop::all_stick_start(VecX* w) {
   constexpr double kForcing = 1e-2;
+  const ContactProblem& p = white.given;
   std::vector<Mat3> G(p.num_contacts());
   for (int i = 0; i < p.num_contacts(); ++i) G[i] = sticking_stiffness(contact_law(p, i));
   VecX impulse(p.b.size());
   for (int i = 0; i < p.num_contacts(); ++i) impulse.segment<3>(3 * i) = -G[i] * p.b.segment<3>(3 * i);
-  const VecX rhs = p.v_star + generalized_impulse(p, impulse);
-  return solve(assemble_hessian(p, graph, G), rhs, kForcing, w) && w->allFinite();
+  const VecX rhs = white.w_star + generalized_impulse(white, impulse);
+  return solve(assemble_hessian(white, graph, G), rhs, kForcing, w) && w->allFinite();
 }
 
 bool NewtonLoop::solve(const BlockMatrix& H, const VecX& rhs, double forcing, VecX* x) {
@@ -130,7 +131,7 @@ double NewtonLoop::forcing(double residual, double last_residual) const {
 }
 
 bool NewtonLoop::direction(const PrimalPoint& point, double last_residual, VecX* d) {
-  const BlockMatrix H = assemble_hessian(p, graph, stiffnesses(p, point.y));
+  const BlockMatrix H = assemble_hessian(white, graph, stiffnesses(white.given, point.y));
   const double relative_tolerance = forcing(residual(point), last_residual);
   if (lags_factor() &&
       solver.solve_lagged(graph.pattern, H, -point.gradient, relative_tolerance, d, &summary))
@@ -202,17 +203,17 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     if (!(d.dot(point.gradient) < 0.0)) d = -point.gradient;
 
     // 2. Step: the full direction if the slope at its end is small, otherwise a line search
-    PrimalPoint next = primal_point(p, point.w + d);
+    PrimalPoint next = primal_point(white, point.w + d);
     if (!(std::abs(d.dot(next.gradient)) <= kFlat * std::abs(d.dot(point.gradient)))) {
-      const LineSearchResult search = line_search(p, point, d, kFlat);
+      const LineSearchResult search = line_search(white, point, d, kFlat);
       summary.line_search_evaluations += search.evaluations;
-      if (search.t != 1.0) next = primal_point(p, point.w + search.t * d);
+      if (search.t != 1.0) next = primal_point(white, point.w + search.t * d);
     }
 
     // 3. Block descent for the few contacts that would otherwise delay the whole structure
     const bool slow = !motions.empty() || summary.iterations >= kSlow;
     if (slow && residual(next) > options.tolerance) {
-      if (!descent) descent.emplace(p);
+      if (!descent) descent.emplace(white);
       next = descent->descend(next, std::max(kNegligible * options.tolerance / residual_scale,
                                              kSmallShare * next.largest_block_gradient));
     }
@@ -225,7 +226,7 @@ PrimalPoint NewtonLoop::run(PrimalPoint point) {
     stagnation.include(cost_fell || residual_fell, residual(point));
     best.include(point, residual(point));
   }
-  return residual(point) == best.residual() ? point : primal_point(p, best.w());
+  return residual(point) == best.residual() ? point : primal_point(white, best.w());
 }
 
 SolveSummary failed(const std::string& message) {
@@ -256,26 +257,24 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
 
   const WhitenedProblem white = whiten(problem);
   SolveSummary summary;
-  NewtonLoop loop{white.problem,
-                  options,
-                  contact_graph(problem),
-                  1.0 / (root_mean_mass(problem) * options.reference_speed),
-                  direction_,
-                  summary};
-  if (loop.uses_multigrid()) loop.motions = rigid_motions(problem, loop.graph, white.L);
+  NewtonLoop loop{
+      white,      options, contact_graph(problem), 1.0 / (root_mean_mass(problem) * options.reference_speed),
+      direction_, summary};
+  direction_.forget_multigrid();
+  if (loop.uses_multigrid()) loop.motions = rigid_motions(white, loop.graph);
   VecX w;
   const auto set_start = [&] {
     const bool warm = solution->v.size() == problem.v_star.size();
     if (warm) w = white.to_w(solution->v);
-    if (!warm && problem.num_contacts() == 0) w = white.problem.v_star;
+    if (!warm && problem.num_contacts() == 0) w = white.w_star;
     return warm || problem.num_contacts() == 0 || loop.all_stick_start(&w);
   };
   if (!set_start())
     return failed("the Hessian of the sticking contacts is not positive definite in double precision");
   const bool by_multigrid = !loop.motions.empty();
-  PrimalPoint point = loop.run(primal_point(white.problem, w));
+  PrimalPoint point = loop.run(primal_point(white, w));
   if (by_multigrid && loop.motions.empty() && summary.ending == SolveEnding::stalled && set_start())
-    point = loop.run(primal_point(white.problem, std::move(w)));  // again, with factors
+    point = loop.run(primal_point(white, std::move(w)));  // again, with factors
   summary.reached = loop.residual(point);
   solution->v = white.to_v(point.w);
   solution->gamma = point.gamma;

@@ -24,13 +24,14 @@ double contact_cost(const ContactProblem& p, int i, const Vec3& y, const Vec3& g
 
 }  // namespace
 
-PrimalPoint primal_point(const ContactProblem& p, VecX w) {
+PrimalPoint primal_point(const WhitenedProblem& problem, VecX w) {
+  const ContactProblem& p = problem.given;
   CUPOLA_ASSERT(w.size() == 6 * p.num_blocks());
   PrimalPoint point;
   point.w = std::move(w);
   point.y.resize(p.b.size());
   point.gamma.resize(p.b.size());
-  const VecX momentum = point.w - p.v_star;
+  const VecX v = problem.to_v(point.w), momentum = point.w - problem.w_star;
   VecX impulse = VecX::Zero(momentum.size());
   VecX costs(p.num_contacts());
   // One pass, because reading D dominates the cost.
@@ -39,10 +40,10 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
     for (int i = 0; i < p.num_contacts(); ++i) {
       const int a = p.block_a[i], b = p.block_b[i];
       if (!in_range(a) && !in_range(b)) continue;
-      const Vec3 y = relative_velocity(p, i, point.w) + p.b.segment<3>(3 * i);
+      const Vec3 y = relative_velocity(p, i, v) + p.b.segment<3>(3 * i);
       const Vec3 gamma = contact_impulse(contact_law(p, i), y);
-      if (in_range(a)) impulse.segment<6>(6 * a).noalias() += p.D_a[i] * gamma;
-      if (in_range(b)) impulse.segment<6>(6 * b).noalias() += p.D_b[i] * gamma;
+      if (in_range(a)) p.D_a[i].add_impulse(gamma, impulse.segment<6>(6 * a));
+      if (in_range(b)) p.D_b[i].add_impulse(gamma, impulse.segment<6>(6 * b));
       if (!in_range(a != ContactProblem::kFixed ? a : b)) continue;
       point.y.segment<3>(3 * i) = y;
       point.gamma.segment<3>(3 * i) = gamma;
@@ -51,7 +52,7 @@ PrimalPoint primal_point(const ContactProblem& p, VecX w) {
   });
   point.cost = 0.5 * momentum.squaredNorm();
   for (const double cost : costs) point.cost += cost;  // in order: the same bits for any number of threads
-  point.gradient = momentum - impulse;
+  point.gradient = momentum - problem.whiten_impulse(impulse);
   for (int k = 0; k < p.num_blocks(); ++k) {
     const double norm = point.gradient.segment<6>(6 * k).norm();
     if (!(norm <= point.largest_block_gradient)) point.largest_block_gradient = norm;  // keeps NaN
@@ -65,13 +66,13 @@ namespace {
 /// large terms that balance each other there do not cancel in every evaluation.
 class Line {
  public:
-  Line(const ContactProblem& p, const PrimalPoint& point, const VecX& d)
-      : p_(p),
+  Line(const WhitenedProblem& problem, const PrimalPoint& point, const VecX& d)
+      : p_(problem.given),
         point_(point),
-        dy_(relative_velocity(p, d)),
+        dy_(relative_velocity(problem, d)),
         slope0_(d.dot(point.gradient)),
         dd_(d.squaredNorm()),
-        terms_(p.num_contacts()) {}
+        terms_(p_.num_contacts()) {}
 
   double slope0() const { return slope0_; }
 
@@ -107,11 +108,11 @@ class Line {
 
 }  // namespace
 
-LineSearchResult line_search(const ContactProblem& p, const PrimalPoint& point, const VecX& d,
+LineSearchResult line_search(const WhitenedProblem& problem, const PrimalPoint& point, const VecX& d,
                              double slope_reduction) {
   constexpr int kMaxEvaluations = 60;  // enough for bisection alone to reach double precision
   CUPOLA_ASSERT(d.size() == point.w.size());
-  Line line(p, point, d);
+  Line line(problem, point, d);
   double low = 0.0, high = std::numeric_limits<double>::infinity();
   LineSearchResult result{1.0, 0};
   while (result.evaluations < kMaxEvaluations) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/contact/problem/contact_problem.hpp"
+#include "solver/contact/problem/whitening.hpp"
 
 namespace cupola {
 
@@ -20,7 +20,7 @@ struct PrimalPoint {
   double largest_block_gradient = 0.0;  ///< max over blocks of |gradient_k|
 };
 
-PrimalPoint primal_point(const ContactProblem& whitened, VecX w);
+PrimalPoint primal_point(const WhitenedProblem& problem, VecX w);
 
 struct LineSearchResult {
   double t = 0.0;
@@ -29,7 +29,7 @@ struct LineSearchResult {
 
 /// The t > 0 that minimises cost(w + t d), to |slope| <= slope_reduction |slope at 0| or to rounding, by a
 /// safeguarded Newton method on the slope, which is monotone. Requires d . gradient < 0.
-LineSearchResult line_search(const ContactProblem& whitened, const PrimalPoint& point, const VecX& d,
+LineSearchResult line_search(const WhitenedProblem& problem, const PrimalPoint& point, const VecX& d,
                              double slope_reduction);
 
 }  // namespace cupola

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace cupola {
 
+using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Mat63 = Eigen::Matrix<double, 6, 3>;
 using VecX = Eigen::VectorXd;
@@ -20,6 +22,47 @@ struct ContactStrength {
   double tension = 0.0;                                          ///< >= 0, largest pull
   double cohesion = 0.0;                                         ///< >= 0, shear carried at gamma_n = 0
   double compression = std::numeric_limits<double>::infinity();  ///< > 0, largest push
+};
+
+/// [r]x, the matrix of the cross product: cross_matrix(r) x = r.cross(x).
+inline Mat3 cross_matrix(const Vec3& r) {
+  Mat3 S;
+  S << 0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0;
+  return S;
+}
+
+/// The columns of D of one of the two bodies of a contact, [frame; arm x frame], without storing the lower half.
+struct Lever {
+  Mat3 frame =
+      Mat3::Zero();         ///< axes of the contact as columns, the normal first; their negatives for body a
+  Vec3 arm = Vec3::Zero();  ///< m: from the centroid to the contact point
+
+  /// D^T v: velocity of the point along the axes (m/s).
+  template <class Velocity>
+  Vec3 velocity(const Velocity& v) const {
+    const Vec3 u(v[0] + v[4] * arm[2] - v[5] * arm[1], v[1] + v[5] * arm[0] - v[3] * arm[2],
+                 v[2] + v[3] * arm[1] - v[4] * arm[0]);
+    return {frame.col(0).dot(u), frame.col(1).dot(u), frame.col(2).dot(u)};
+  }
+  /// Adds D gamma, the impulse and its moment about the centroid (N s, N m s), to `sum`. Adding halves: a vector
+  /// of six that is written by numbers and read by pairs takes three times as long.
+  template <class Impulse, class Sum>
+  void add_impulse(const Impulse& gamma, Sum&& sum) const {
+    using Real = typename Impulse::Scalar;
+    const Eigen::Matrix<Real, 3, 1> force = frame.cast<Real>() * gamma;
+    sum.template head<3>() += force;
+    sum.template tail<3>() += arm.cast<Real>().cross(force);
+  }
+  /// D
+  template <class Real = double>
+  Eigen::Matrix<Real, 6, 3> matrix() const {
+    Eigen::Matrix<Real, 6, 3> D;
+    D.template topRows<3>() = frame.cast<Real>();
+    for (int axis = 0; axis < 3; ++axis)
+      D.col(axis).template tail<3>() = arm.cast<Real>().cross(frame.cast<Real>().col(axis));
+    return D;
+  }
+  Mat63 magnitude() const;  ///< |D| by components, or more where terms of arm x frame cancel
 };
 
 /// The frictional contact problem of one time step, in the form that every method takes. M is symmetric
@@ -47,22 +90,22 @@ struct ContactProblem {
   VecX v_star;                            ///< m/s, rad/s: free velocity, i.e. without contact impulses (6 nb)
   std::vector<int> block_a;               ///< block of D_a, or kFixed (nc)
   std::vector<int> block_b;               ///< block of D_b, or kFixed (nc)
-  std::vector<Mat63> D_a;                 ///< rows of D for block a; unused when it is fixed (nc)
-  std::vector<Mat63> D_b;                 ///< rows of D for block b; unused when it is fixed (nc)
+  std::vector<Lever> D_a;                 ///< rows of D for block a; unused when it is fixed (nc)
+  std::vector<Lever> D_b;                 ///< rows of D for block b; unused when it is fixed (nc)
   VecX b;                                 ///< m/s: gap and elastic slip over (h + alpha) (3 nc)
   VecX E;                                 ///< 1/kg: diag c / (h (h + alpha)); both tangents equal (3 nc)
   VecX mu;                                ///< friction coefficient (nc)
   std::vector<ContactStrength> strength;  ///< (nc), or empty: all joints are dry
   double h = 0.0;                         ///< s, step; converts impulses to forces (force = gamma / h)
-  /// Motion in the plane x-z: D is zero in the rows y, rot x and rot z, and M does not couple these with the
-  /// others. Factors then have three unknowns per block.
+  /// Motion in the plane x-z: D is zero in the rows y, rot x and rot z (row y of frames and arms is zero), and
+  /// M does not couple these with the others. Factors then have three unknowns per block.
   bool plane = false;
 
   int num_blocks() const { return static_cast<int>(M.size()); }
   int num_contacts() const { return static_cast<int>(block_a.size()); }
 
   /// Checks sizes, finite values, M symmetric positive definite, E >= 0, mu >= 0, equal E for both tangents,
-  /// strengths >= 0, two different blocks per contact, h > 0. Throws std::invalid_argument that names the
+  /// strengths >= 0, a free block per contact, h > 0. Throws std::invalid_argument that names the
   /// first violation.
   void validate() const;
   /// The message of validate(), or an empty string for a valid problem.
@@ -73,15 +116,23 @@ struct ContactProblem {
 inline Vec3 relative_velocity(const ContactProblem& problem, int i, const VecX& v) {
   const int a = problem.block_a[i], b = problem.block_b[i];
   Vec3 u = Vec3::Zero();
-  if (a != ContactProblem::kFixed) u.noalias() += problem.D_a[i].transpose() * v.segment<6>(6 * a);
-  if (b != ContactProblem::kFixed) u.noalias() += problem.D_b[i].transpose() * v.segment<6>(6 * b);
+  if (a != ContactProblem::kFixed) u += problem.D_a[i].velocity(v.segment<6>(6 * a));
+  if (b != ContactProblem::kFixed) u += problem.D_b[i].velocity(v.segment<6>(6 * b));
   return u;
 }
 /// Adds D_i gamma_i of one contact to the impulses on its blocks.
 inline void add_impulse(const ContactProblem& problem, int i, const Vec3& gamma, VecX* impulse) {
   const int a = problem.block_a[i], b = problem.block_b[i];
-  if (a != ContactProblem::kFixed) impulse->segment<6>(6 * a).noalias() += problem.D_a[i] * gamma;
-  if (b != ContactProblem::kFixed) impulse->segment<6>(6 * b).noalias() += problem.D_b[i] * gamma;
+  if (a != ContactProblem::kFixed) problem.D_a[i].add_impulse(gamma, impulse->segment<6>(6 * a));
+  if (b != ContactProblem::kFixed) problem.D_b[i].add_impulse(gamma, impulse->segment<6>(6 * b));
+}
+
+/// The columns of D of contact i for a block that it touches: of both sides if it joins the block with its own
+/// image (cyclic_reduction.hpp).
+inline Mat63 contact_columns(const ContactProblem& problem, int i, int block) {
+  if (problem.block_a[i] != block) return problem.D_b[i].matrix();
+  if (problem.block_b[i] != block) return problem.D_a[i].matrix();
+  return problem.D_a[i].matrix() + problem.D_b[i].matrix();
 }
 
 /// D^T v, relative velocities in the contact frames (3 nc).

@@ -12,8 +12,6 @@
 namespace cupola {
 namespace {
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-
 constexpr double kMachineEps = std::numeric_limits<double>::epsilon();
 constexpr double kGapOperationsPerContact = 100.0, kGapOperationsPerBlock = 500.0;
 
@@ -45,7 +43,8 @@ Vec3 RoundingBounds::uncertainty(const ContactLaw& law, const Vec3& gamma) {
 /// |L^-1| times a bound of each component of the error of r = M (v - v_star) - D gamma.
 void RoundingBounds::add_momentum() {
   std::vector<Vec6> error(static_cast<std::size_t>(p_.num_blocks()), Vec6::Zero());
-  std::vector<int> terms(error.size(), 8);  // of the sum in one row: M (v - v_star), then three per contact
+  // Of the sum in one row: M (v - v_star) and the moment of an impulse, then three per contact.
+  std::vector<int> terms(error.size(), 11);
   for (int i = 0; i < p_.num_contacts(); ++i)
     for (const int k : {p_.block_a[i], p_.block_b[i]})
       if (k != ContactProblem::kFixed) terms[k] += 3;
@@ -56,9 +55,9 @@ void RoundingBounds::add_momentum() {
       if (!in_range(p_.block_a[i]) && !in_range(p_.block_b[i])) continue;
       const Vec3 gamma = x_.gamma.segment<3>(3 * i);
       const Vec3 change = uncertainty(contact_law(p_, i), gamma);
-      const auto add = [&](int k, const Mat63& D) {
+      const auto add = [&](int k, const Lever& D) {
         if (in_range(k))
-          error[k] += D.cwiseAbs() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
+          error[k] += D.magnitude() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
       };
       add(p_.block_a[i], p_.D_a[i]);
       add(p_.block_b[i], p_.D_b[i]);
@@ -78,8 +77,8 @@ void RoundingBounds::add_contacts() {
   const int nc = p_.num_contacts();
   squared_ = sum_in_order(kGapOperationsPerContact * nc, nc, squared_, [&](int i) {
     Vec3 speed = p_.b.segment<3>(3 * i).cwiseAbs();
-    const auto add = [&](int k, const Mat63& D) {
-      if (k != ContactProblem::kFixed) speed += D.cwiseAbs().transpose() * x_.v.segment<6>(6 * k).cwiseAbs();
+    const auto add = [&](int k, const Lever& D) {
+      if (k != ContactProblem::kFixed) speed += D.magnitude().transpose() * x_.v.segment<6>(6 * k).cwiseAbs();
     };
     add(p_.block_a[i], p_.D_a[i]);
     add(p_.block_b[i], p_.D_b[i]);

@@ -23,19 +23,31 @@ double pass_over(int contacts) {
 
 }  // namespace
 
-VecX delassus_traces(const ContactProblem& p) {
+std::vector<Mat6> inverse_masses(const ContactProblem& p) {
   std::vector<Mat6> inverse(p.M.size());
   for (size_t k = 0; k < p.M.size(); ++k) inverse[k] = p.M[k].llt().solve(Mat6::Identity());
-  VecX traces = VecX::Zero(p.num_contacts());
+  return inverse;
+}
+
+std::vector<Mat3> delassus_blocks(const ContactProblem& p) {
+  const std::vector<Mat6> inverse = inverse_masses(p);
+  std::vector<Mat3> N(p.num_contacts(), Mat3::Zero());
   for (int i = 0; i < p.num_contacts(); ++i) {
-    const auto add = [&](int k, const Mat63& D) {
-      if (k == ContactProblem::kFixed) return;
-      const Mat63 response = inverse[k] * D;
-      traces[i] += D.cwiseProduct(response).sum();
+    const auto add = [&](int k) {
+      const Mat63 D = contact_columns(p, i, k);
+      N[i] += D.transpose() * inverse[k] * D;
     };
-    add(p.block_a[i], p.D_a[i]);
-    add(p.block_b[i], p.D_b[i]);
+    const int a = p.block_a[i], b = p.block_b[i];
+    if (a != ContactProblem::kFixed) add(a);
+    if (b != ContactProblem::kFixed && b != a) add(b);
   }
+  return N;
+}
+
+VecX delassus_traces(const ContactProblem& p) {
+  const std::vector<Mat3> N = delassus_blocks(p);
+  VecX traces(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) traces[i] = N[i].trace();
   return traces;
 }
 
@@ -98,9 +110,9 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, c
   const double squared = sum_in_order(pass_over(nc), nc, 0.0, [&](int i) {
     if (x.gamma.segment<3>(3 * i).isZero(0.0)) return 0.0;  // open: gamma = 0 exactly
     double speed = p.b.segment<3>(3 * i).norm();
-    const auto add = [&](int k, const Mat63& D) {
+    const auto add = [&](int k, const Lever& D) {
       if (k != ContactProblem::kFixed)
-        speed += (D.cwiseAbs().transpose() * x.v.segment<6>(6 * k).cwiseAbs()).norm();
+        speed += (D.magnitude().transpose() * x.v.segment<6>(6 * k).cwiseAbs()).norm();
     };
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);

@@ -58,7 +58,11 @@ double smallest_compliance(const ContactProblem& problem);
 /// Whether the impulses of the problem are unique. They are under the associated law if all E > 0.
 ForcesUnique forces_unique(const ContactProblem& problem, const FlowRule& law);
 
-/// trace(N_ii), N = D^T M^-1 D, of every contact, 1/kg (nc): its response to a unit impulse on itself.
+/// M^-1 per block (nb).
+std::vector<Mat6> inverse_masses(const ContactProblem& problem);
+/// N_ii, N = D^T M^-1 D, of every contact, 1/kg (nc): its response to impulses on itself.
+std::vector<Mat3> delassus_blocks(const ContactProblem& problem);
+/// Their traces (nc).
 VecX delassus_traces(const ContactProblem& problem);
 
 /// Residuals::momentum alone.

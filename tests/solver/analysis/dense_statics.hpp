@@ -71,8 +71,8 @@ inline VecX dense_static_impulses(const ContactProblem& p, const VecX& impulse) 
   const Eigen::Index n = 6 * p.num_blocks(), m = 3 * p.num_contacts();
   RealMat D = RealMat::Zero(n, m), H(n, n);
   for (int i = 0; i < p.num_contacts(); ++i) {
-    if (p.block_a[i] >= 0) D.block(6 * p.block_a[i], 3 * i, 6, 3) = p.D_a[i].cast<Real>();
-    if (p.block_b[i] >= 0) D.block(6 * p.block_b[i], 3 * i, 6, 3) = p.D_b[i].cast<Real>();
+    if (p.block_a[i] >= 0) D.block(6 * p.block_a[i], 3 * i, 6, 3) = p.D_a[i].matrix<Real>();
+    if (p.block_b[i] >= 0) D.block(6 * p.block_b[i], 3 * i, 6, 3) = p.D_b[i].matrix<Real>();
   }
   const RealVec b = p.b.cast<Real>(), w = impulse.cast<Real>();
   RealVec M(n);  // metric of the proximal term

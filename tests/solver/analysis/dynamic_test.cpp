@@ -299,7 +299,8 @@ TEST(Accuracy, NamesTheMeasureThatWasMissed) {
 
 // The first steps are missed and the last ones are not: residuals and bound are those of the worst step.
 TEST(Accuracy, IsTheWorstOfTheRun) {
-  const RunResult run = run_limited(60, 3.0);
+  const RunResult run =
+      run_limited(80, 3.0);  // with 70 to 100 iterations late steps converge and early ones do not
   const Summary& s = run.summary;
   EXPECT_EQ(s.status, Status::unconverged) << s.message;
   EXPECT_LE(s.accuracy.reached, s.accuracy.asked) << "the last step converged";

@@ -134,7 +134,7 @@ TEST(Conic, ThrustOfASemicircularArch) {
     const double weight = -problem.load(Eigen::seq(2, Eigen::last, 6)).sum();
     // Force of the first voussoir on the left springing, outwards: minus that of the ground on it.
     for (int i = 0; i < 4; ++i)
-      problem.cost.segment<3>(3 * i) = problem.contacts.D_b[i].row(0).transpose() / weight;
+      problem.cost.segment<3>(3 * i) = problem.contacts.D_b[i].frame.row(0).transpose() / weight;
     const auto [least, largest] = range(problem);
     EXPECT_NEAR(least, 0.1755685, 1e-7) << mu;
     EXPECT_NEAR(largest, mu == 0.4 ? 0.2 : 0.2273735, 1e-7) << mu;

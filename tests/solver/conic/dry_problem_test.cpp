@@ -23,8 +23,10 @@ void strengthen(ConicProblem* problem, const ContactStrength& strength) {
 ConicProblem in_plane(ConicProblem problem) {
   problem.contacts.plane = true;
   for (auto* side : {&problem.contacts.D_a, &problem.contacts.D_b})
-    for (Mat63& D : *side)
-      for (const int row : {1, 3, 5}) D.row(row).setZero();
+    for (Lever& D : *side) {
+      D.frame.row(1).setZero();
+      D.arm[1] = 0.0;
+    }
   for (Eigen::Index k = 0; k < problem.load.size(); k += 6)
     for (const int row : {1, 3, 5}) problem.load[k + row] = 0.0;
   return problem;

@@ -58,12 +58,12 @@ class Scene {
     frame.col(2) = frame.col(0).cross(frame.col(1));
     problem_.block_a.push_back(a);
     problem_.block_b.push_back(b);
-    const auto columns = [&](int block, const Mat3& turn) -> Mat63 {
-      if (block == kGround) return Mat63::Zero();
-      return lever(centroids_[block], turn.transpose() * point, turn.transpose() * frame);
+    const auto lever = [&](int block, const Mat3& axes, const Mat3& turn) -> Lever {
+      if (block == kGround) return {};
+      return {turn.transpose() * axes, turn.transpose() * point - centroids_[block]};
     };
-    problem_.D_a.push_back(-columns(a, turn_a));
-    problem_.D_b.push_back(columns(b, turn_b));
+    problem_.D_a.push_back(lever(a, -frame, turn_a));
+    problem_.D_b.push_back(lever(b, frame, turn_b));
     const double h = problem_.h;
     b_.push_back({gap / h, 0.0, 0.0});
     E_.push_back(Vec3(joint.c_n, joint.c_t, joint.c_t) / (h * h));
@@ -96,13 +96,6 @@ class Scene {
   const Vec3& centroid(int block) const { return centroids_[block]; }
 
  private:
-  static Mat63 lever(const Vec3& centroid, const Vec3& point, const Mat3& frame) {
-    Mat63 D;
-    D.topRows<3>() = frame;
-    for (int c = 0; c < 3; ++c) D.col(c).tail<3>() = (point - centroid).cross(frame.col(c));
-    return D;
-  }
-
   Vec3 gravity_;
   ContactProblem problem_;
   std::vector<Vec3> centroids_, b_, E_, v_star_;

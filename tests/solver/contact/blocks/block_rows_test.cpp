@@ -55,18 +55,45 @@ TEST(BlockRows, MultiplyLikeDenseMatrices) {
             kRounding * expected.cwiseAbs().maxCoeff());
 }
 
-// Scaling by blocks commutes with the sum over contacts up to the rounding of their terms.
-TEST(BlockMatrix, IsWhitenedWithOrWithoutACopyOfTheContacts) {
-  constexpr double kShare = 1e-13;
-  const ContactProblem p = scenes::dome({.rings = 5, .blocks_per_ring = 8}, 1.0, {});
-  const ContactGraph graph = contact_graph(p);
-  const std::vector<Mat3> G(p.num_contacts(), 1e3 * Mat3::Identity());
-  const WhitenedProblem white = whiten(p);
-  const Eigen::MatrixXd expected =
-      dense(both_triangles(graph.pattern, assemble_hessian(white.problem, graph, G)));
-  const Eigen::MatrixXd H =
-      dense(both_triangles(graph.pattern, assemble_whitened_hessian(p, Whitening(p.M), graph, G)));
-  EXPECT_LT((H - expected).cwiseAbs().maxCoeff(), kShare * expected.cwiseAbs().maxCoeff());
+/// M + sum of D G D^T over the contacts, by definition.
+Eigen::MatrixXd dense_hessian(const ContactProblem& p, const std::vector<Mat3>& G) {
+  const Eigen::Index n = 6 * p.num_blocks();
+  Eigen::MatrixXd H = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 0; k < p.num_blocks(); ++k) H.block<6, 6>(6 * k, 6 * k) = p.M[k];
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    Eigen::MatrixXd D = Eigen::MatrixXd::Zero(n, 3);
+    const int a = p.block_a[i], b = p.block_b[i];
+    if (a != ContactProblem::kFixed) D.middleRows<6>(6 * a) += p.D_a[i].matrix();
+    if (b != ContactProblem::kFixed) D.middleRows<6>(6 * b) += p.D_b[i].matrix();
+    H += D * G[i] * D.transpose();
+  }
+  return H;
+}
+
+// A dome, and one sector of it with one block and with two blocks in each ring: their contacts join images of
+// one block, and of two blocks.
+TEST(BlockMatrix, IsTheSumOverTheContacts) {
+  constexpr double kShare = 1e-13;  // rounding of the terms
+  for (const auto& [blocks_per_ring, sectors] : {std::pair{8, 1}, {8, 8}, {8, 4}}) {
+    const ContactProblem p =
+        scenes::dome({.rings = 5, .blocks_per_ring = blocks_per_ring, .sectors = sectors}, 1.0, {});
+    const ContactGraph graph = contact_graph(p);
+    std::vector<Mat3> G;
+    for (int i = 0; i < p.num_contacts(); ++i) {
+      const Mat3 root = Mat3::Identity() + 0.1 * Mat3::Random();
+      G.push_back(1e3 * root * root.transpose());
+    }
+    const auto expect_near = [&](const BlockMatrix& matrix, const Eigen::MatrixXd& expected) {
+      const Eigen::MatrixXd H = dense(both_triangles(graph.pattern, matrix));
+      EXPECT_LT((H - expected).cwiseAbs().maxCoeff(), kShare * expected.cwiseAbs().maxCoeff()) << sectors;
+    };
+    const Eigen::MatrixXd H = dense_hessian(p, G);
+    expect_near(assemble_hessian(p, graph, G), H);
+    const WhitenedProblem white = whiten(p);
+    Eigen::MatrixXd L_inverse = Eigen::MatrixXd::Zero(H.rows(), H.cols());
+    for (int k = 0; k < p.num_blocks(); ++k) L_inverse.block<6, 6>(6 * k, 6 * k) = white.L_inverse[k];
+    expect_near(assemble_hessian(white, graph, G), L_inverse * H * L_inverse.transpose());
+  }
 }
 
 TEST(BlockRows, AreSortedInAProduct) {

@@ -20,22 +20,21 @@ const scenes::Joint kJoint{.mu = 0.4};
 constexpr double kMotion = 0.003;  // s, a step in which inertia prevails
 
 struct System {
-  ContactProblem problem;
-  WhitenedProblem white;
-  ContactGraph graph;
+  explicit System(ContactProblem of) : problem(std::move(of)) {
+    std::vector<Mat3> G;
+    for (int i = 0; i < problem.num_contacts(); ++i)
+      G.push_back(contact_stiffness(contact_law(problem, i), -Vec3::UnitX()));
+    H = assemble_hessian(white, graph, G);
+    motions = rigid_motions(white, graph);
+  }
+  System(const System&) = delete;  // `white` refers to `problem`
+
+  const ContactProblem problem;
+  const WhitenedProblem white = whiten(problem);
+  const ContactGraph graph = contact_graph(problem);
   BlockMatrix H;  ///< with all contacts sticking
   RigidMotions motions;
 };
-
-System system_of(const ContactProblem& problem) {
-  System s{problem, whiten(problem), contact_graph(problem), {}, {}};
-  std::vector<Mat3> G;
-  for (int i = 0; i < problem.num_contacts(); ++i)
-    G.push_back(contact_stiffness(contact_law(problem, i), -Vec3::UnitX()));
-  s.H = assemble_hessian(s.white.problem, s.graph, G);
-  s.motions = rigid_motions(problem, s.graph, s.white.L);
-  return s;
-}
 
 /// A deterministic vector that is no single mode.
 VecX some_vector(int num_blocks) {
@@ -47,7 +46,7 @@ VecX some_vector(int num_blocks) {
 /// CG iterations that reduce the residual by six digits.
 int iterations_to_six_digits(const System& s, const Multigrid& multigrid) {
   constexpr int kMaxIterations = 500;
-  VecX r = s.white.problem.v_star;
+  VecX r = s.white.w_star;
   VecX z = multigrid.cycle(r), p = z;
   double rz = r.dot(z);
   const double target = 1e-12 * rz;
@@ -66,30 +65,32 @@ int iterations_to_six_digits(const System& s, const Multigrid& multigrid) {
 // A common rigid motion of all blocks causes no relative velocity at the contacts between them. Rounding:
 // arms of metres, D of order one.
 TEST(RigidMotions, CauseNoRelativeVelocity) {
-  const System s = system_of(scenes::dome({.rings = 10, .blocks_per_ring = 16}, 1.0, kJoint));
+  const System s(scenes::dome({.rings = 10, .blocks_per_ring = 16}, 1.0, kJoint));
   const Eigen::Matrix<double, 6, 1> common{0.3, -0.2, 0.1, 0.05, -0.04, 0.02};
   VecX w(6 * s.problem.num_blocks());
   for (int k = 0; k < s.problem.num_blocks(); ++k)
     w.segment<6>(6 * k) = s.motions.motion[k] * moved_centre(Vec3::Zero(), s.motions.centre[k]) * common;
+  const VecX v = s.white.to_v(w);
   for (int i = 0; i < s.problem.num_contacts(); ++i) {
     if (s.problem.block_a[i] == ContactProblem::kFixed) continue;
-    EXPECT_LT(relative_velocity(s.white.problem, i, w).norm(), 1e-12) << "contact " << i;
+    EXPECT_LT(relative_velocity(s.problem, i, v).norm(), 1e-12) << "contact " << i;
   }
 }
 
 // The same across the seam of a sector, except at one line of joints, where the path around the axis closes.
 TEST(RigidMotions, ContinueAcrossTheSeamOfASector) {
-  const System s = system_of(scenes::dome({.rings = 10, .blocks_per_ring = 64, .sectors = 8}, 1.0, kJoint));
+  const System s(scenes::dome({.rings = 10, .blocks_per_ring = 64, .sectors = 8}, 1.0, kJoint));
   const Eigen::Matrix<double, 6, 1> common{0.3, -0.2, 0.1, 0.05, -0.04, 0.02};
   VecX w(6 * s.problem.num_blocks());
   for (int k = 0; k < s.problem.num_blocks(); ++k)
     w.segment<6>(6 * k) = s.motions.motion[k] * moved_centre(Vec3::Zero(), s.motions.centre[k]) * common;
+  const VecX v = s.white.to_v(w);
   int torn = 0, free = 0;
   for (int i = 0; i < s.problem.num_contacts(); ++i) {
     if (s.problem.block_a[i] == ContactProblem::kFixed || s.problem.block_b[i] == ContactProblem::kFixed)
       continue;
     ++free;
-    torn += relative_velocity(s.white.problem, i, w).norm() > 1e-12;
+    torn += relative_velocity(s.problem, i, v).norm() > 1e-12;
   }
   EXPECT_GT(torn, 0);
   EXPECT_LT(torn, 0.3 * free);  // 1.5 of the 8 blocks of a ring lie at this line
@@ -97,9 +98,9 @@ TEST(RigidMotions, ContinueAcrossTheSeamOfASector) {
 
 TEST(RigidMotions, AreEmptyIfContactsAreNotInSpace) {
   ContactProblem problem = scenes::dome({.rings = 4, .blocks_per_ring = 8}, 1.0, kJoint);
-  for (Mat63& D : problem.D_b) D(0, 0) += 0.1;
+  for (Lever& D : problem.D_b) D.frame(0, 0) += 0.1;
   const WhitenedProblem white = whiten(problem);
-  EXPECT_TRUE(rigid_motions(problem, contact_graph(problem), white.L).empty());
+  EXPECT_TRUE(rigid_motions(white, contact_graph(problem)).empty());
 }
 
 // Under gravity. The bound is twice the measured number (10 and 11). With motions that neighbours do not
@@ -107,7 +108,7 @@ TEST(RigidMotions, AreEmptyIfContactsAreNotInSpace) {
 // motions.
 TEST(Multigrid, NeedsFewIterationsForAnyNumberOfBlocks) {
   for (const int refine : {1, 2}) {
-    System s = system_of(scenes::dome({.rings = 40 * refine, .blocks_per_ring = 40 * refine}, 100.0, kJoint));
+    System s(scenes::dome({.rings = 40 * refine, .blocks_per_ring = 40 * refine}, 100.0, kJoint));
     Multigrid multigrid;
     ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
     EXPECT_LE(iterations_to_six_digits(s, multigrid), 22) << refine;
@@ -125,7 +126,7 @@ TEST(Multigrid, NeedsFewIterationsForAnyNumberOfBlocks) {
 
 TEST(Multigrid, IsSymmetricPositiveDefinite) {
   for (const double h : {100.0, kMotion}) {
-    const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, h, kJoint));
+    const System s(scenes::dome({.rings = 80, .blocks_per_ring = 80}, h, kJoint));
     Multigrid multigrid;
     ASSERT_TRUE(multigrid.build(s.graph.pattern, s.H, s.motions));
     const VecX x = some_vector(s.problem.num_blocks()), y = x.reverse();
@@ -139,7 +140,7 @@ TEST(Multigrid, IsSymmetricPositiveDefinite) {
 // 6,400 blocks: two pieces of a sweep, and enough work for a second thread in products.
 TEST(Multigrid, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const double h : {100.0, kMotion}) {
-    const System s = system_of(scenes::dome({.rings = 80, .blocks_per_ring = 80}, h, kJoint));
+    const System s(scenes::dome({.rings = 80, .blocks_per_ring = 80}, h, kJoint));
     const VecX x = some_vector(s.problem.num_blocks());
     VecX expected;
     for (const int threads : {1, 2, 3}) {
@@ -155,7 +156,7 @@ TEST(Multigrid, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Multigrid, RejectsIndefiniteMatricesAndNaN) {
-  System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
+  System s(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
   Multigrid multigrid;
   const Mat6 valid = s.H.diagonal[9];
   s.H.diagonal[9] = -valid;
@@ -167,7 +168,7 @@ TEST(Multigrid, RejectsIndefiniteMatricesAndNaN) {
 }
 
 TEST(NewtonDirection, IsZeroForAZeroRightHandSide) {
-  const System s = system_of(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
+  const System s(scenes::dome({.rings = 40, .blocks_per_ring = 40}, 100.0, kJoint));
   VecX d;
   SolveSummary summary;
   ASSERT_TRUE(NewtonDirection().solve_by_multigrid(
@@ -176,13 +177,32 @@ TEST(NewtonDirection, IsZeroForAZeroRightHandSide) {
   EXPECT_EQ(summary.conjugate_gradients, 0);
 }
 
+// A quarter of the contacts opens. The prolongations that were smoothed by the old matrix serve nearly as well as
+// new ones; the old matrices would take ten times as many iterations. Measured: 12, 13, ....
+TEST(Multigrid, ServesAnotherMatrixWithTheSameProlongations) {
+  System s(scenes::dome({.rings = 60, .blocks_per_ring = 60}, 100.0, kJoint));
+  Multigrid kept, old, fresh;
+  ASSERT_TRUE(kept.build(s.graph.pattern, s.H, s.motions));
+  ASSERT_TRUE(old.build(s.graph.pattern, s.H, s.motions));
+  std::vector<Mat3> G;
+  for (int i = 0; i < s.problem.num_contacts(); ++i)
+    G.push_back(i % 4 == 0 ? Mat3(Mat3::Zero())
+                           : contact_stiffness(contact_law(s.problem, i), -Vec3::UnitX()));
+  s.H = assemble_hessian(s.white, s.graph, G);
+  ASSERT_TRUE(kept.rebuild(s.graph.pattern, s.H));
+  ASSERT_TRUE(fresh.build(s.graph.pattern, s.H, s.motions));
+  const int with_new = iterations_to_six_digits(s, fresh), with_kept = iterations_to_six_digits(s, kept);
+  EXPECT_LE(with_kept, 1.2 * with_new);
+  EXPECT_GT(iterations_to_six_digits(s, old), with_kept) << with_new << " " << with_kept;
+}
+
 TEST(NewtonDirection, DropsAFactorThatCosts) {
-  const System s = system_of(scenes::dome({.rings = 12, .blocks_per_ring = 16}, 0.03, kJoint));
+  const System s(scenes::dome({.rings = 12, .blocks_per_ring = 16}, 0.03, kJoint));
   std::vector<Mat3> G;
   for (int i = 0; i < s.problem.num_contacts(); ++i)
     G.push_back(i % 2 == 0 ? Mat3(Mat3::Zero())
                            : contact_stiffness(contact_law(s.problem, i), -Vec3::UnitX()));
-  const BlockMatrix opened = assemble_hessian(s.white.problem, s.graph, G);
+  const BlockMatrix opened = assemble_hessian(s.white, s.graph, G);
   const VecX rhs = some_vector(s.problem.num_blocks());
   NewtonDirection direction;
   SolveSummary summary;
@@ -237,8 +257,8 @@ TEST(NewtonWithMultigridSlow, FindsTheForcesInASector) {
 // Contacts whose directions are not orthonormal do not give the positions of the blocks: factors are used.
 TEST(NewtonWithMultigridSlow, UsesFactorsIfContactsAreNotInSpace) {
   ContactProblem problem = scenes::dome({.rings = 100, .blocks_per_ring = 104}, 100.0, kJoint);
-  for (Mat63& D : problem.D_a) D *= 2.0;
-  for (Mat63& D : problem.D_b) D *= 2.0;
+  for (Lever& D : problem.D_a) D.frame *= 2.0;
+  for (Lever& D : problem.D_b) D.frame *= 2.0;
   SolveOptions options;
   options.tolerance = 1e-8;
   options.reference_speed = scenes::kGravity * problem.h;

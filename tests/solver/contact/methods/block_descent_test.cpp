@@ -18,7 +18,7 @@ PrimalPoint solution_of(const ContactProblem& problem, const WhitenedProblem& wh
   options.reference_speed = scenes::kGravity * problem.h;
   ContactSolution solution;
   EXPECT_EQ(NewtonSolver().solve(problem, options, &solution).ending, SolveEnding::converged);
-  return primal_point(white.problem, white.to_w(solution.v));
+  return primal_point(white, white.to_w(solution.v));
 }
 
 TEST(BlockDescent, SolvesProblemsOfOneBlock) {
@@ -26,10 +26,10 @@ TEST(BlockDescent, SolvesProblemsOfOneBlock) {
     const ContactProblem problem = scenes::incline(slope, 0.01, kJoint);
     const WhitenedProblem white = whiten(problem);
     const PrimalPoint exact = solution_of(problem, white);
-    const BlockDescent descent(white.problem);
-    PrimalPoint point = primal_point(white.problem, white.problem.v_star);
+    const BlockDescent descent(white);
+    PrimalPoint point = primal_point(white, white.w_star);
     for (int k = 0; k < 20; ++k) point = descent.descend(point, 0.0);
-    EXPECT_LT((point.w - exact.w).norm(), 1e-10 * white.problem.v_star.norm()) << slope;
+    EXPECT_LT((point.w - exact.w).norm(), 1e-10 * white.w_star.norm()) << slope;
   }
 }
 
@@ -37,8 +37,8 @@ TEST(BlockDescent, LowersTheCostTowardsTheMinimum) {
   const ContactProblem problem = scenes::arch(20, 0.15, 1.2, 0.1, 0.01, kJoint);
   const WhitenedProblem white = whiten(problem);
   const PrimalPoint exact = solution_of(problem, white);
-  const BlockDescent descent(white.problem);
-  PrimalPoint point = primal_point(white.problem, white.problem.v_star);
+  const BlockDescent descent(white);
+  PrimalPoint point = primal_point(white, white.w_star);
   const double first = point.cost;
   for (int k = 0; k < 50; ++k) {
     const double before = point.cost;
@@ -53,7 +53,7 @@ TEST(BlockDescent, SkipsBlocksInEquilibrium) {
   const ContactProblem problem = scenes::arch(20, 0.15, 1.2, 0.0, 0.01, kJoint);
   const WhitenedProblem white = whiten(problem);
   const PrimalPoint exact = solution_of(problem, white);
-  const PrimalPoint same = BlockDescent(white.problem).descend(exact, 2.0 * exact.largest_block_gradient);
+  const PrimalPoint same = BlockDescent(white).descend(exact, 2.0 * exact.largest_block_gradient);
   EXPECT_EQ(same.w, exact.w);
 }
 
@@ -64,11 +64,11 @@ TEST(BlockDescent, FollowsBlocksBesideThoseThatMove) {
   const PrimalPoint exact = solution_of(problem, white);
   constexpr int kMoved = 10;
   VecX w = exact.w;
-  w[6 * kMoved] += 1e-3 * white.problem.v_star.norm();
-  const PrimalPoint start = primal_point(white.problem, w);
+  w[6 * kMoved] += 1e-3 * white.w_star.norm();
+  const PrimalPoint start = primal_point(white, w);
   const double small = 1e-6 * start.largest_block_gradient;
   ASSERT_GT(small, exact.largest_block_gradient);
-  const PrimalPoint next = BlockDescent(white.problem).descend(start, small);
+  const PrimalPoint next = BlockDescent(white).descend(start, small);
   const auto moved = [&](int block) { return next.w.segment<6>(6 * block) != start.w.segment<6>(6 * block); };
   for (const int block : {kMoved - 2, kMoved - 1, kMoved, kMoved + 1, kMoved + 2})
     EXPECT_TRUE(moved(block)) << block;

@@ -12,28 +12,31 @@ namespace {
 /// A dome of compliant contacts under Coulomb's law with random relative velocities, so that contacts stick,
 /// slide and open side by side.
 struct System {
-  ContactProblem problem;
-  ContactGraph graph;
+  System(double friction, unsigned seed) : problem(scenes::dome(shape(), 0.01, {friction, 1e-8, 1e-8})) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const CoulombSubproblem sub{white, 0.0, 1.0, VecX::Zero(problem.num_contacts()),
+                                VecX::Zero(problem.b.size())};
+    VecX y(problem.b.size());
+    for (double& value : y) value = normal(random) - 0.5;
+    G = sub.stiffnesses(y);
+    F = VecX::NullaryExpr(problem.v_star.size(), [&] { return normal(random); });
+  }
+  System(const System&) = delete;  // `white` refers to `problem`
+
+  static scenes::DomeShape shape() {
+    scenes::DomeShape shape;
+    shape.rings = 8;
+    shape.blocks_per_ring = 12;
+    return shape;
+  }
+
+  const ContactProblem problem;
+  const WhitenedProblem white = whiten(problem);
+  const ContactGraph graph = contact_graph(problem);
   std::vector<Mat3> G;
   VecX F;
 };
-
-System random_system(double friction, unsigned seed) {
-  scenes::DomeShape shape;
-  shape.rings = 8;
-  shape.blocks_per_ring = 12;
-  std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
-  System system{whiten(scenes::dome(shape, 0.01, {friction, 1e-8, 1e-8})).problem, {}, {}, {}};
-  const ContactProblem& p = system.problem;
-  system.graph = contact_graph(p);
-  const CoulombSubproblem sub{p, 0.0, 1.0, VecX::Zero(p.num_contacts()), VecX::Zero(p.b.size())};
-  VecX y(p.b.size());
-  for (double& value : y) value = normal(random) - 0.5;
-  system.G = sub.stiffnesses(y);
-  system.F = VecX::NullaryExpr(p.v_star.size(), [&] { return normal(random); });
-  return system;
-}
 
 struct Solved {
   double residual;  ///< |J d - F| / |F|
@@ -44,7 +47,7 @@ Solved solve(const System& s, std::optional<double> forcing, CoulombDirection* d
   Solved solved;
   VecX d;
   EXPECT_TRUE(direction->solve(s.G, s.F, forcing, &d, &solved.summary));
-  const UnsymmetricBlockMatrix J = ContactJacobian(s.problem, s.graph).at(s.G);
+  const UnsymmetricBlockMatrix J = ContactJacobian(s.white, s.graph).at(s.G);
   solved.residual = (multiply(s.graph.pattern, J, d) - s.F).norm() / s.F.norm();
   return solved;
 }
@@ -61,9 +64,9 @@ void factorize_sticking(const System& s, CoulombDirection* direction) {
 TEST(CoulombDirection, MeetsItsForcing) {
   for (const double friction : {0.0, 0.05, 0.4, 5.0}) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
-      const System system = random_system(friction, seed);
+      const System system(friction, seed);
       BlockLu lu;
-      CoulombDirection direction(system.problem, system.graph, &lu);
+      CoulombDirection direction(system.white, system.graph, &lu);
       factorize_sticking(system, &direction);
       for (const double forcing : {0.1, 1e-3, 1e-6})
         EXPECT_LE(solve(system, forcing, &direction).residual, 1.01 * forcing) << friction;  // 1 %: rounding
@@ -78,10 +81,10 @@ TEST(CoulombDirection, MeetsItsForcing) {
 // A Cholesky factor is renewed as one where that serves, as it does for a symmetric matrix, and an LU factor
 // takes its place where it does not. Either is kept for the next system.
 TEST(CoulombDirection, RenewsFactorsOfTheKindThatServes) {
-  System system = random_system(0.4, 1);
+  System system(0.4, 1);
   const std::vector<Mat3> sliding = system.G;
   BlockLu lu;
-  CoulombDirection direction(system.problem, system.graph, &lu);
+  CoulombDirection direction(system.white, system.graph, &lu);
   factorize_sticking(system, &direction);
   for (Mat3& G : system.G) G = 1e4 * Mat3::Identity();
   Solved solved = solve(system, 1e-6, &direction);
@@ -99,10 +102,10 @@ TEST(CoulombDirection, RenewsFactorsOfTheKindThatServes) {
 // The first factor is of the kind that is asked for, if it serves.
 TEST(CoulombDirection, BeginsWithTheFactorAskedFor) {
   using First = CoulombDirection::First;
-  const System system = random_system(5.0, 1);
+  const System system(5.0, 1);
   const auto begins_with_lu = [&](double forcing, First first) {
     BlockLu lu;
-    CoulombDirection direction(system.problem, system.graph, &lu, first);
+    CoulombDirection direction(system.white, system.graph, &lu, first);
     EXPECT_LE(solve(system, forcing, &direction).residual, 0.101);  // the larger forcing, and rounding
     return lu.has_factor();
   };

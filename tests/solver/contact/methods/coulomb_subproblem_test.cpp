@@ -17,15 +17,15 @@ constexpr double kStep = 0.01;  // s
 
 /// Whether rigid contacts stick in the first subproblem of CoulombNewton.
 bool sticks(const ContactProblem& problem) {
-  const ContactProblem p = whiten(problem).problem;
-  const ContactGraph graph = contact_graph(p);
-  const CoulombSubproblem sub{p, 0.0, root_mean_mass(problem), delassus_traces(problem) / 3.0,
-                              VecX::Zero(p.b.size())};
+  const WhitenedProblem white = whiten(problem);
+  const ContactGraph graph = contact_graph(problem);
+  const CoulombSubproblem sub{white, 0.0, root_mean_mass(problem), delassus_traces(problem) / 3.0,
+                              VecX::Zero(problem.b.size())};
   const StickingSystem system = sticking_system(sub);
   VecX w;
   BlockLu lu;
   SolveSummary summary;
-  EXPECT_TRUE(CoulombDirection(p, graph, &lu).solve_symmetric(system.G, system.rhs, &w, &summary));
+  EXPECT_TRUE(CoulombDirection(white, graph, &lu).solve_symmetric(system.G, system.rhs, &w, &summary));
   return keeps_sticking(sub, point_at(sub, w));
 }
 

@@ -198,7 +198,7 @@ TEST(Newton, InvalidInputFailsWithAMessage) {
   p.M[0](0, 5) = 1e3;
   EXPECT_NE(message_of(p).find("the mass matrix of block 0 is not symmetric"), std::string::npos);
   p = good;
-  p.D_b[3](2, 1) = std::nan("");
+  p.D_b[3].frame(2, 1) = std::nan("");
   EXPECT_NE(message_of(p).find("D_b of contact 3 is not finite"), std::string::npos);
   p = good;
   p.E[3] = -1e-8;
@@ -223,7 +223,7 @@ TEST(Newton, InvalidInputFailsWithAMessage) {
 TEST(Newton, DoesNotReadTheRowsOfFixedBlocks) {
   ContactProblem problem = scenes::stack({2000}, 0.01, {0.0, 1e-8, 1e-8});
   const Solved clean = solve(problem);
-  for (Mat63& D : problem.D_a) D.setConstant(std::nan(""));  // the side of the ground
+  for (Lever& D : problem.D_a) D.frame.setConstant(std::nan(""));  // the side of the ground
   const Solved poisoned = solve(problem);
   EXPECT_EQ(poisoned.x.v, clean.x.v);
 }

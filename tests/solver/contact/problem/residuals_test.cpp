@@ -29,8 +29,8 @@ ContactProblem one_contact(double mu, double e_n, double e_t) {
   p.v_star = VecX::Zero(6);
   p.block_a = {ContactProblem::kFixed};
   p.block_b = {0};
-  p.D_a.emplace_back(Mat63::Zero());
-  p.D_b.emplace_back(Mat63::Identity());
+  p.D_a.emplace_back();
+  p.D_b = {{Mat3::Identity(), Vec3::Zero()}};
   p.b = VecX::Zero(3);
   p.E = Vec3(e_n, e_t, e_t);
   p.mu = VecX::Constant(1, mu);
@@ -137,8 +137,8 @@ TEST(ResidualsOfAPair, MomentumIsTheUnbalancedImpulseOverTheMeanWeight) {
     mass += p.M[k](0, 0) / p.num_blocks();
     Eigen::Matrix<double, 6, 1> r = p.M[k] * (x.v - p.v_star).segment<6>(6 * k);
     for (int i = 0; i < p.num_contacts(); ++i) {
-      if (p.block_a[i] == k) r -= p.D_a[i] * x.gamma.segment<3>(3 * i);
-      if (p.block_b[i] == k) r -= p.D_b[i] * x.gamma.segment<3>(3 * i);
+      if (p.block_a[i] == k) r -= p.D_a[i].matrix() * x.gamma.segment<3>(3 * i);
+      if (p.block_b[i] == k) r -= p.D_b[i].matrix() * x.gamma.segment<3>(3 * i);
     }
     worst = std::max(worst, std::sqrt(r.dot(p.M[k].inverse() * r)));
   }

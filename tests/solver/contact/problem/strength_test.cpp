@@ -144,7 +144,7 @@ TEST(Strength, CostIsThePotentialOfTheImpulses) {
       p.block_a = {ContactProblem::kFixed};
       p.block_b = {0};
       p.D_a.resize(1);
-      p.D_b = {Mat63::Identity()};
+      p.D_b = {{Mat3::Identity(), Vec3::Zero()}};
       p.v_star = VecX::Zero(6);
       p.b = VecX::Zero(3);
       p.E = Vec3(law.e_n, law.e_t, law.e_t);
@@ -154,7 +154,7 @@ TEST(Strength, CostIsThePotentialOfTheImpulses) {
       const auto cost = [&](const Vec3& at) {
         VecX w = VecX::Zero(6);
         w.head<3>() = at;
-        return primal_point(p, w).cost - 0.5 * at.squaredNorm();
+        return primal_point(whiten(p), w).cost - 0.5 * at.squaredNorm();
       };
       constexpr double kStep = 1e-5;
       for (int k = 0; k < 3; ++k) {
