@@ -277,7 +277,7 @@ AnchoredContacts ContactDetector::find_contacts(const std::vector<TrackedPair>& 
       const std::span part = std::span(stale).subspan(start, std::min(kPairsPerChunk, num_pairs - start));
       for (const TrackedPair* pair : part) append_contacts(pair->a, pair->b, &chunks[i]);
     });
-    for (AnchoredContacts& chunk : chunks) append(std::move(chunk), &fresh);
+    append(chunks, &fresh);
     if (first > 0) continue;
     // The other chunks have about as many contacts. Reserved but unused pages take no memory.
     const std::size_t expected = fresh.anchors.size() * num_chunks / count;

@@ -1,6 +1,8 @@
 #include "solver/collision/patch_contacts.hpp"
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <set>
@@ -168,16 +170,29 @@ void sort_patch(Range range, AnchoredContacts* contacts) {
 
 }  // namespace
 
-void append(AnchoredContacts more, AnchoredContacts* contacts) {
-  const auto take = [](auto* to, auto& from) {
-    to->insert(to->end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+void append(std::span<AnchoredContacts> chunks, AnchoredContacts* contacts) {
+  constexpr double kOperationsPerContact = 300.0;
+  const auto take = [](auto* to, auto* from) {
+    to->insert(to->end(), std::make_move_iterator(from->begin()), std::make_move_iterator(from->end()));
+    from->clear();
   };
-  const int patches_before = static_cast<int>(contacts->set.patches.size());
-  for (Contact& contact : more.set.points) contact.patch += patches_before;
-  take(&contacts->set.points, more.set.points);
-  take(&contacts->set.patches, more.set.patches);
-  take(&contacts->anchors, more.anchors);
-  take(&contacts->patch_polygons, more.patch_polygons);
+  double work = 0.0;
+  int patches = static_cast<int>(contacts->set.patches.size());
+  for (AnchoredContacts& chunk : chunks) {
+    for (Contact& contact : chunk.set.points) contact.patch += patches;
+    patches += static_cast<int>(chunk.set.patches.size());
+    work += kOperationsPerContact * static_cast<double>(chunk.anchors.size());
+  }
+  const std::array<std::function<void(AnchoredContacts*)>, 3> parts{
+      [&](AnchoredContacts* chunk) { take(&contacts->set.points, &chunk->set.points); },
+      [&](AnchoredContacts* chunk) { take(&contacts->anchors, &chunk->anchors); },
+      [&](AnchoredContacts* chunk) {
+        take(&contacts->set.patches, &chunk->set.patches);
+        take(&contacts->patch_polygons, &chunk->patch_polygons);
+      }};
+  share_loop(work, static_cast<int>(parts.size()), [&](int part) {
+    for (AnchoredContacts& chunk : chunks) parts[part](&chunk);
+  });
 }
 
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,

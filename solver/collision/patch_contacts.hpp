@@ -25,8 +25,8 @@ struct AnchoredContacts {
   std::vector<std::vector<Vec3>> patch_polygons;  ///< m, one per patch, axes of block a
 };
 
-/// Appends all contacts and patches of `more`.
-void append(AnchoredContacts more, AnchoredContacts* contacts);
+/// Appends the contacts and patches of all `chunks`, and leaves those empty.
+void append(std::span<AnchoredContacts> chunks, AnchoredContacts* contacts);
 
 /// Appends a patch and those of its contact points whose gap is within the margin; `pose_ab` as for the
 /// patch. An edge or vertex contact has no area: each of its points gets `nominal_area` (m2) unless the patch

@@ -8,11 +8,13 @@
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/whitening.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kOperationsPerContact = 100.0;
 
 /// S of a contact that rubs: x = (mu n + c, t) lies in a Lorentz cone with the barrier -log(x_0^2 - |t|^2),
 /// whose inverse Hessian is x x^T - (x_0^2 - |t|^2) / 2 diag(1, -1, -1). Limits of the normal force add w e
@@ -66,21 +68,6 @@ VecX inside_point(const ContactProblem& p, const VecX& given, double share) {
   return inside;
 }
 
-/// -(load + D gamma), summed in extended precision.
-VecX imbalance_of(const ContactProblem& p, const VecX& load, const VecX& gamma) {
-  using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  Extended sum = load.cast<long double>();
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    const Eigen::Matrix<long double, 3, 1> g = gamma.segment<3>(3 * i).cast<long double>();
-    const auto add = [&](int k, const Lever& D) {
-      if (k != ContactProblem::kFixed) D.add_impulse(g, sum.segment<6>(6 * k));
-    };
-    add(p.block_a[i], p.D_a[i]);
-    add(p.block_b[i], p.D_b[i]);
-  }
-  return -sum.cast<double>();
-}
-
 /// The S of one contact at impulses that inside_point() gives.
 Mat3 inverse_hessian_of(const ContactProblem& p, int i, const VecX& inside) {
   const ContactLaw law = contact_law(p, i);
@@ -90,8 +77,11 @@ Mat3 inverse_hessian_of(const ContactProblem& p, int i, const VecX& inside) {
 
 /// J S J^T in whitened unknowns.
 BlockMatrix assemble_K(const WhitenedProblem& problem, const ContactGraph& graph, const VecX& inside) {
-  std::vector<Mat3> S(problem.given.num_contacts());
-  for (int i = 0; i < problem.given.num_contacts(); ++i) S[i] = inverse_hessian_of(problem.given, i, inside);
+  const int nc = problem.given.num_contacts();
+  std::vector<Mat3> S(nc);
+  share_range(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) S[i] = inverse_hessian_of(problem.given, i, inside);
+  });
   return assemble_stiffness(problem, graph, S);
 }
 
@@ -119,9 +109,12 @@ double decrement(const WhitenedProblem& problem, const VecX& inside, const VecX&
   const auto times_K = [&](const VecX& w) {
     // S again for every product: stored, it would take a tenth of the memory of a large model.
     VecX change = relative_velocity(problem, w);
-    for (int i = 0; i < problem.given.num_contacts(); ++i)
-      change.segment<3>(3 * i) =
-          (inverse_hessian_of(problem.given, i, inside) * change.segment<3>(3 * i)).eval();
+    const int nc = problem.given.num_contacts();
+    share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
+      for (int i = first; i < last; ++i)
+        change.segment<3>(3 * i) =
+            (inverse_hessian_of(problem.given, i, inside) * change.segment<3>(3 * i)).eval();
+    });
     return generalized_impulse(problem, change);
   };
   VecX rest = r, z = factor.solve(rest), direction = z;
@@ -144,6 +137,23 @@ double decrement(const WhitenedProblem& problem, const VecX& inside, const VecX&
 }
 
 }  // namespace
+
+VecX imbalance_of(const ContactProblem& p, const VecX& load, const VecX& gamma) {
+  using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  const int nb = p.num_blocks(), nc = p.num_contacts();
+  Extended sum = load.cast<long double>();
+  share_sums(kOperationsPerContact * nc, nb, [&](int first, int last) {
+    for (int i = 0; i < nc; ++i) {
+      const auto add = [&](int k, const Lever& D) {
+        if (first <= k && k < last)
+          D.add_impulse(gamma.segment<3>(3 * i).cast<long double>(), sum.segment<6>(6 * k));
+      };
+      add(p.block_a[i], p.D_a[i]);
+      add(p.block_b[i], p.D_b[i]);
+    }
+  });
+  return -sum.cast<double>();
+}
 
 double equilibrium_distance(const WhitenedProblem& problem, const ContactGraph& graph, const VecX& load,
                             const VecX& gamma, BlockCholesky* factor) {

@@ -5,6 +5,9 @@
 
 namespace cupola {
 
+/// -(load + D gamma), summed in extended precision (6 nb).
+VecX imbalance_of(const ContactProblem& problem, const VecX& load, const VecX& gamma);
+
 /// Distance of forces from equilibrium, in the measure in which a distance below 1 proves that forces in
 /// exact equilibrium exist inside the limits of the joints, whatever the flow rule and the compliance.
 ///

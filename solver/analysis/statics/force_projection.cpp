@@ -112,15 +112,18 @@ bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
   for (const Mat6& block : H.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
   const double shift = std::max(kSlowest * gravity * p_.h * p_.h, kRounding * largest);
   for (Mat6& block : H.diagonal) block.diagonal().array() += shift - 1.0;  // the Hessian contains I
+  std::vector<Mat3> geometric(p_.num_blocks(), Mat3::Zero());
   for (int i = 0; i < p_.num_contacts(); ++i) {
     const auto add = [&](int k, const Lever& D) {
-      if (k == ContactProblem::kFixed) return;
-      Mat6 K = Mat6::Zero();
-      K.bottomRightCorner<3, 3>() = geometric_stiffness(D, x.gamma.segment<3>(3 * i), p_.h);
-      H.diagonal[k] += white_.L_inverse[k] * K * white_.L_inverse[k].transpose();
+      if (k != ContactProblem::kFixed)
+        geometric[k] += geometric_stiffness(D, x.gamma.segment<3>(3 * i), p_.h);
     };
     add(p_.block_a[i], p_.D_a[i]);
     add(p_.block_b[i], p_.D_b[i]);
+  }
+  for (int k = 0; k < p_.num_blocks(); ++k) {
+    const auto of_turns = white_.L_inverse[k].rightCols<3>();
+    H.diagonal[k] += of_turns * geometric[k] * of_turns.transpose();
   }
   return preconditioner_.factorize(graph_.pattern, H);
 }
@@ -155,24 +158,6 @@ std::vector<Mat3> ForceProjection::tangents(const ContactSolution& x) const {
     for (int i = first; i < last; ++i) S[i] = tangent(x, i);
   });
   return S;
-}
-
-/// -(h w + D gamma), accumulated in extended precision.
-VecX ForceProjection::imbalance(const VecX& gamma) const {
-  using Extended6 = Eigen::Matrix<long double, 6, 1>;
-  std::vector<Extended6> sum(p_.num_blocks());
-  for (int k = 0; k < p_.num_blocks(); ++k) sum[k] = impulse_.segment<6>(6 * k).cast<long double>();
-  for (int i = 0; i < p_.num_contacts(); ++i) {
-    const Eigen::Matrix<long double, 3, 1> g = gamma.segment<3>(3 * i).cast<long double>();
-    const auto add = [&](int k, const Lever& D) {
-      if (k != ContactProblem::kFixed) D.add_impulse(g, sum[k]);
-    };
-    add(p_.block_a[i], p_.D_a[i]);
-    add(p_.block_b[i], p_.D_b[i]);
-  }
-  VecX result(impulse_.size());
-  for (int k = 0; k < p_.num_blocks(); ++k) result.segment<6>(6 * k) = -sum[k].cast<double>();
-  return result;
 }
 
 /// The change S J^T w of the impulses that balances `imbalance`, and the velocities -L^-T w that cause it, by
@@ -230,8 +215,8 @@ std::optional<ForceErrorBound> ForceProjection::force_error(const ContactSolutio
     return std::nullopt;
   double remaining = 0.0;
   for (int round = 0; round < kRounds; ++round) {
-    const std::optional<ContactSolution> change =
-        correction(tangents(balanced), imbalance(balanced.gamma), round == 0 ? kFirst : kLater);
+    const std::optional<ContactSolution> change = correction(
+        tangents(balanced), imbalance_of(p_, impulse_, balanced.gamma), round == 0 ? kFirst : kLater);
     if (!change) return std::nullopt;
     remaining = energy_norm(p_, change->gamma);
     const bool settled = round > 0 && remaining <= kNegligible * energy_norm(p_, balanced.gamma - x.gamma);

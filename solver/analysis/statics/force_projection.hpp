@@ -38,7 +38,6 @@ class ForceProjection {
   std::vector<Mat3> stiffnesses(const ContactSolution& x) const;
   Mat3 tangent(const ContactSolution& x, int contact) const;
   std::vector<Mat3> tangents(const ContactSolution& x) const;
-  VecX imbalance(const VecX& gamma) const;
   std::optional<ContactSolution> correction(const std::vector<Mat3>& S, const VecX& imbalance,
                                             double reduction);
 
