@@ -111,9 +111,10 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
   const std::string& folder = request.output_folder;
   Drawn drawn{"", result_figures(*e, history), ""};
   if (own) drawn.figures.insert(drawn.figures.begin(), *own);
-  std::future<std::vector<std::string>> drawing =  // takes as long as what follows on this thread
-      std::async(std::launch::async,
-                 [&] { return draw_figures(in_folder(folder, "figures"), drawn.figures); });
+  // Takes as long as what follows on this thread; runs at get() if no second thread can be started.
+  std::future<std::vector<std::string>> drawing = std::async(std::launch::async | std::launch::deferred, [&] {
+    return draw_figures(in_folder(folder, "figures"), drawn.figures);
+  });
   Film film(*e);
   const std::vector<MovedBlocks> motion = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);

@@ -321,6 +321,25 @@ TEST(Programs, ReportTooLittleAddressSpace) {
   fails("700000", "100", "14400 MB of address space required for 100 threads");
 }
 
+// The stack of a second thread would need more than the whole address space. gnuplot may start its threads.
+TEST(Programs, AnalyseWithoutASecondThread) {
+#ifdef CUPOLA_SANITIZED
+  GTEST_SKIP() << "sanitizers take all the address space";
+#endif
+  const ProgramFolder folder;
+  std::ofstream(folder.file("gnuplot")) << "#!/bin/sh\nulimit -s 8192\nPATH=${PATH#.:} exec gnuplot \"$@\"\n";
+  std::filesystem::permissions(folder.file("gnuplot"), std::filesystem::perms::owner_all);
+  solve_wall(folder);
+  ASSERT_EQ(analyse(folder, "results").code, 0);
+  const auto with_a_thread = folder.contents();
+  std::filesystem::remove_all(folder.file("post"));
+  const ProgramRun run =
+      folder.run("sh -c 'ulimit -s 4194304; ulimit -v 2097152; PATH=.:$PATH exec cupola-post analyse " +
+                 kWall + " --assembly assembly.vtu --results results --output post --quiet'");
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(folder.contents(), with_a_thread);
+}
+
 // OpenBLAS would start a thread for each further processor, which spins. The processors that the
 // solver may use are those of the shell that started it.
 TEST(Programs, SolveOnOneThreadThatMayUseAllProcessors) {
