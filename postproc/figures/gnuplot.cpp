@@ -77,7 +77,7 @@ size_t draw(const TemporaryFolder& folder, size_t first, std::vector<Drawing>* d
   for (size_t k = first; k < drawings->size(); ++k)
     commands += commands_of((*drawings)[k]) + fmt::format("print '{}'\n", kDrawn);
   write_text_atomically(script, commands);
-  const int status = run_process({"gnuplot", script}, log);
+  const int status = run_process({"gnuplot", "-d", script}, log);  // -d: ignore the user's ~/.gnuplot
   if (status == kNotFound) {
     for (Drawing& drawing : *drawings) drawing.problem = "gnuplot is not installed";
     return drawings->size();

@@ -3,6 +3,7 @@
 #include "postproc/figures/figures.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -212,6 +213,26 @@ TEST(Figures, HaveNoDate) {
   const std::string folder = test::fresh_folder("figures");
   ASSERT_TRUE(draw_figures(folder, {figure}).empty());
   EXPECT_NE(read_text(folder + "/line.pdf").find("/CreationDate (D:19700101000000"), std::string::npos);
+}
+
+// gnuplot reads commands from ~/.gnuplot before those of a script.
+TEST(Figures, DoNotDependOnTheHomeFolder) {
+  Figure figure;
+  figure.name = "line";
+  figure.commands = "plot x\n";
+  const std::string home = test::fresh_folder("home"), plain = test::fresh_folder("plain");
+  ASSERT_TRUE(draw_figures(plain, {figure}).empty());
+  write_text_atomically(home + "/.gnuplot", "set macros\nplot nothing\n");
+  const char* const old_home = std::getenv("HOME");
+  const std::string kept = old_home == nullptr ? "" : old_home;
+  ::setenv("HOME", home.c_str(), 1);
+  const std::vector<std::string> problems = draw_figures(home, {figure});
+  if (old_home == nullptr)
+    ::unsetenv("HOME");
+  else
+    ::setenv("HOME", kept.c_str(), 1);
+  EXPECT_EQ(problems, std::vector<std::string>());
+  EXPECT_EQ(read_text(home + "/line.svg"), read_text(plain + "/line.svg"));
 }
 
 // gnuplot ends at the first error, and its settings would reach the next figure.
