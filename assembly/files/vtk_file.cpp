@@ -382,6 +382,8 @@ Mesh read_data(const std::string& path) {
   reader->SetFileName(path.c_str());
   try {
     reader->Update();
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the file
   } catch (const std::exception& error) {
     reject(path, fmt::format("cannot be read: {}", error.what()));
   }
