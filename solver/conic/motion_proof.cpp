@@ -18,7 +18,7 @@ Vec3 rounding_of_velocity(const ContactProblem& p, int i, const VecX& v) {
   constexpr double kOperations = 16.0;  // sums of twelve products
   Vec3 size = Vec3::Zero();
   const auto add = [&](int k, const Lever& D) {
-    if (k != ContactProblem::kFixed) size += D.magnitude().transpose() * v.segment<6>(6 * k).cwiseAbs();
+    if (k != ContactProblem::kFixed) size += D.size_of_velocity(v.segment<6>(6 * k));
   };
   add(p.block_a[i], p.D_a[i]);
   add(p.block_b[i], p.D_b[i]);

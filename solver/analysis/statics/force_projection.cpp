@@ -73,7 +73,7 @@ double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x)
     if (x.gamma.segment<3>(3 * i).isZero(0.0)) continue;
     Vec3 size = p.b.segment<3>(3 * i).cwiseAbs();
     const auto add = [&](int k, const Lever& D) {
-      if (k != ContactProblem::kFixed) size += D.magnitude().transpose() * x.v.segment<6>(6 * k).cwiseAbs();
+      if (k != ContactProblem::kFixed) size += D.size_of_velocity(x.v.segment<6>(6 * k));
     };
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);

@@ -65,11 +65,17 @@ Neighbours neighbours(const BlockPattern& pattern) {
   return result;
 }
 
+Mat3 cross(const Vec3& r) {
+  Mat3 S;
+  S << 0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0;
+  return S;
+}
+
 }  // namespace
 
 Mat6 moved_centre(const Vec3& from, const Vec3& to) {
   Mat6 T = Mat6::Identity();
-  T.topRightCorner<3, 3>() = cross_matrix(from - to);  // v + omega x (to - from)
+  T.topRightCorner<3, 3>() = cross(from - to);  // v + omega x (to - from)
   return T;
 }
 

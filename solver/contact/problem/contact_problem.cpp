@@ -81,12 +81,6 @@ void check_contact(const ContactProblem& p, int i) {
 
 }  // namespace
 
-Mat63 Lever::magnitude() const {
-  Mat63 D;
-  D << frame.cwiseAbs(), cross_matrix(arm).cwiseAbs() * frame.cwiseAbs();
-  return D;
-}
-
 void ContactProblem::validate() const {
   check_sizes(*this);
   for (int k = 0; k < num_blocks(); ++k) check_block(*this, k);

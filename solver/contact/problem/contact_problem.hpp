@@ -24,13 +24,6 @@ struct ContactStrength {
   double compression = std::numeric_limits<double>::infinity();  ///< > 0, largest push
 };
 
-/// [r]x, the matrix of the cross product: cross_matrix(r) x = r.cross(x).
-inline Mat3 cross_matrix(const Vec3& r) {
-  Mat3 S;
-  S << 0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0;
-  return S;
-}
-
 /// The columns of D of one of the two bodies of a contact, [frame; arm x frame], without storing the lower half.
 struct Lever {
   Mat3 frame =
@@ -62,7 +55,26 @@ struct Lever {
       D.col(axis).template tail<3>() = arm.cast<Real>().cross(frame.cast<Real>().col(axis));
     return D;
   }
-  Mat63 magnitude() const;  ///< |D| by components, or more where terms of arm x frame cancel
+  /// |D|^T |v| and |D| |gamma| by components, or more where terms of a moment cancel: they bound the rounding of
+  /// velocity() and add_impulse().
+  template <class Velocity>
+  Vec3 size_of_velocity(const Velocity& v) const {
+    const Vec3 r = arm.cwiseAbs(), turn = v.template tail<3>().cwiseAbs();
+    const Vec3 u = v.template head<3>().cwiseAbs() + sizes_of_cross(turn, r);
+    return frame.cwiseAbs().transpose() * u;
+  }
+  Vec6 size_of_impulse(const Vec3& gamma) const {
+    const Vec3 force = frame.cwiseAbs() * gamma.cwiseAbs();
+    Vec6 size;
+    size << force, sizes_of_cross(arm.cwiseAbs(), force);
+    return size;
+  }
+
+ private:
+  /// a x b with all terms added, of vectors >= 0.
+  static Vec3 sizes_of_cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] + a[2] * b[1], a[2] * b[0] + a[0] * b[2], a[0] * b[1] + a[1] * b[0]};
+  }
 };
 
 /// The frictional contact problem of one time step, in the form that every method takes. M is symmetric

@@ -57,7 +57,7 @@ void RoundingBounds::add_momentum() {
       const Vec3 change = uncertainty(contact_law(p_, i), gamma);
       const auto add = [&](int k, const Lever& D) {
         if (in_range(k))
-          error[k] += D.magnitude() * (0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
+          error[k] += D.size_of_impulse(0.5 * kMachineEps * terms[k] * gamma.cwiseAbs() + change);
       };
       add(p_.block_a[i], p_.D_a[i]);
       add(p_.block_b[i], p_.D_b[i]);
@@ -78,7 +78,7 @@ void RoundingBounds::add_contacts() {
   squared_ = sum_in_order(kGapOperationsPerContact * nc, nc, squared_, [&](int i) {
     Vec3 speed = p_.b.segment<3>(3 * i).cwiseAbs();
     const auto add = [&](int k, const Lever& D) {
-      if (k != ContactProblem::kFixed) speed += D.magnitude().transpose() * x_.v.segment<6>(6 * k).cwiseAbs();
+      if (k != ContactProblem::kFixed) speed += D.size_of_velocity(x_.v.segment<6>(6 * k));
     };
     add(p_.block_a[i], p_.D_a[i]);
     add(p_.block_b[i], p_.D_b[i]);

@@ -111,8 +111,7 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, c
     if (x.gamma.segment<3>(3 * i).isZero(0.0)) return 0.0;  // open: gamma = 0 exactly
     double speed = p.b.segment<3>(3 * i).norm();
     const auto add = [&](int k, const Lever& D) {
-      if (k != ContactProblem::kFixed)
-        speed += (D.magnitude().transpose() * x.v.segment<6>(6 * k).cwiseAbs()).norm();
+      if (k != ContactProblem::kFixed) speed += D.size_of_velocity(x.v.segment<6>(6 * k)).norm();
     };
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);

@@ -36,7 +36,15 @@ TEST(Lever, TakesTheVelocityOfThePoint) {
 
 TEST(Lever, BoundsTheSizeOfItsColumns) {
   const Lever D = some_lever();
-  EXPECT_TRUE((D.magnitude().array() >= D.matrix().cwiseAbs().array() * (1.0 - kRounding)).all());
+  const Mat63 columns = D.matrix().cwiseAbs();
+  const Vec6 v{0.3, -0.2, 0.1, 0.5, -0.4, 0.2};
+  const Vec3 gamma(0.7, -0.3, 0.2);
+  EXPECT_TRUE(
+      (D.size_of_velocity(v).array() >= (columns.transpose() * v.cwiseAbs()).array() - kRounding).all());
+  EXPECT_TRUE((D.size_of_impulse(gamma).array() >= (columns * gamma.cwiseAbs()).array() - kRounding).all());
+  // Equal where no terms cancel.
+  const Lever along{Mat3::Identity(), Vec3::UnitX()};
+  EXPECT_EQ(along.size_of_velocity(v), along.matrix().cwiseAbs().transpose() * v.cwiseAbs());
 }
 
 }  // namespace
