@@ -14,8 +14,8 @@ namespace cupola {
 
 namespace {
 
-/// Blocks of a piece: an eighth of all, so that threads share them, and enough that of those of a shell about a
-/// fifth touches another piece.
+/// Blocks of a piece: an eighth of all, so that threads share them, and enough that of those of a shell about
+/// a fifth touches another piece.
 int piece_size(int num_blocks) {
   constexpr int kShare = 8, kSmallest = 1024, kLargest = 8192;
   return std::clamp(num_blocks / kShare, kSmallest, kLargest);

@@ -6,10 +6,10 @@
 
 namespace cupola {
 
-/// Nonlinear block Gauss-Seidel for the cost of a problem (primal_cost.hpp): each block takes one Newton step with a
-/// line search, while the other blocks are fixed. A sweep costs a fraction of a factorisation. It resolves
-/// contacts that change their region in a few places, which would otherwise shorten Newton's step for the
-/// whole structure. After the presmoothing of Graeser and Sander (2019), "Truncated nonsmooth Newton
+/// Nonlinear block Gauss-Seidel for the cost of a problem (primal_cost.hpp): each block takes one Newton step
+/// with a line search, while the other blocks are fixed. A sweep costs a fraction of a factorisation. It
+/// resolves contacts that change their region in a few places, which would otherwise shorten Newton's step for
+/// the whole structure. After the presmoothing of Graeser and Sander (2019), "Truncated nonsmooth Newton
 /// multigrid methods for block-separable minimization problems".
 class BlockDescent {
  public:

@@ -24,7 +24,7 @@ struct ContactStrength {
   double compression = std::numeric_limits<double>::infinity();  ///< > 0, largest push
 };
 
-/// The columns of D of one of the two bodies of a contact, [frame; arm x frame], without storing the lower half.
+/// The columns of D of one of the two bodies of a contact, [frame; arm x frame].
 struct Lever {
   Mat3 frame =
       Mat3::Zero();         ///< axes of the contact as columns, the normal first; their negatives for body a

@@ -177,8 +177,8 @@ TEST(NewtonDirection, IsZeroForAZeroRightHandSide) {
   EXPECT_EQ(summary.conjugate_gradients, 0);
 }
 
-// A quarter of the contacts opens. The prolongations that were smoothed by the old matrix serve nearly as well as
-// new ones; the old matrices would take ten times as many iterations. Measured: 12, 13, ....
+// A quarter of the contacts opens. Prolongations that were smoothed by the old matrix serve nearly as well as
+// new ones, which the old matrices do not.
 TEST(Multigrid, ServesAnotherMatrixWithTheSameProlongations) {
   System s(scenes::dome({.rings = 60, .blocks_per_ring = 60}, 100.0, kJoint));
   Multigrid kept, old, fresh;
