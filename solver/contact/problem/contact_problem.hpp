@@ -26,9 +26,8 @@ struct ContactStrength {
 
 /// The columns of D of one of the two bodies of a contact, [frame; arm x frame].
 struct Lever {
-  Mat3 frame =
-      Mat3::Zero();         ///< axes of the contact as columns, the normal first; their negatives for body a
-  Vec3 arm = Vec3::Zero();  ///< m: from the centroid to the contact point
+  Mat3 frame = Mat3::Zero();  ///< axes as columns, the normal first; their negatives for body a
+  Vec3 arm = Vec3::Zero();    ///< m, from the centroid to the contact point
 
   /// D^T v: velocity of the point along the axes (m/s).
   template <class Velocity>
