@@ -48,6 +48,7 @@ void remove_date(std::string* text) {
 /// A file that gnuplot draws.
 struct Drawing {
   const Figure* figure;
+  std::string script;  ///< file of the figure's commands
   std::string ending;
   std::string path, side;  ///< its place, and where it is until it is complete
   std::string problem;
@@ -55,10 +56,9 @@ struct Drawing {
 
 std::string commands_of(const Drawing& drawing) {
   return fmt::format(
-             "reset session\nset terminal {} enhanced background '#ffffff'\nset output '{}'\n"
-             "set termoption noenhanced\n",
-             terminal_of(*drawing.figure, drawing.ending), gnuplot_text(drawing.side)) +
-         drawing.figure->commands + "unset output\n";
+      "reset session\nset terminal {} enhanced background '#ffffff'\nset output '{}'\n"
+      "set termoption noenhanced\nload '{}'\nunset output\n",
+      terminal_of(*drawing.figure, drawing.ending), gnuplot_text(drawing.side), gnuplot_text(drawing.script));
 }
 
 constexpr const char* kDrawn = "cupola: drawn";  // printed after each drawing
@@ -115,12 +115,13 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
   const TemporaryFolder side(in_folder(folder, ".drawing"));
   std::vector<Drawing> drawings;
   for (const Figure& figure : figures) {
-    write_text_atomically(in_folder(folder, figure.name + ".gp"),
-                          fmt::format("# {}\n# gnuplot -p {}.gp\n{}", gnuplot_text(figure.title), figure.name,
-                                      figure.commands));
+    const std::string script = in_folder(folder, figure.name + ".gp");
+    write_text_atomically(
+        script,
+        fmt::format("# {}\n# gnuplot -p {}.gp\n", gnuplot_text(figure.title), figure.name) + figure.commands);
     const auto add = [&](const char* ending) {
       const std::string name = figure.name + ending;
-      drawings.push_back({&figure, ending, in_folder(folder, name), in_folder(side.path, name), ""});
+      drawings.push_back({&figure, script, ending, in_folder(folder, name), in_folder(side.path, name), ""});
     };
     add(figure.vector ? ".svg" : ".png");
     if (figure.vector) add(".pdf");
