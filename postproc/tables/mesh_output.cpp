@@ -31,7 +31,14 @@ Vec3 drawn_force(const JointWrench& joint) {
 
 DisplacedBlocks::DisplacedBlocks(const Evaluation& evaluation) : evaluation_(evaluation) {
   const Assembly& assembly = evaluation.assembly;
-  Assembly split = assembly;
+  Assembly split;  // the topology, in which blocks share no vertices
+  split.parts = assembly.parts;
+  split.face_kinds = assembly.face_kinds;
+  split.face_vertex_start = assembly.face_vertex_start;
+  split.face_vertices.resize(assembly.face_vertices.size());
+  const size_t most = assembly.face_vertices.size() / 3;  // three faces of a part meet at a vertex
+  vertices_.reserve(most);
+  vertex_block_.reserve(most);
   std::vector<int> new_id(assembly.vertices.size(), -1);
   int first = 0, block = -1;  // new ids from `first` on are the current block's
   for (const Part& part : assembly.parts) {
