@@ -347,6 +347,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   warn_of_props(&e);
+  e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
   if (at_rest(e)) e.cracks = shell_cracks(e.assembly, e.last.frame.contacts, e.last.joints, e.axes);
   e.reactions = support_reactions(e.assembly, e.last.joints, e.axes);
   e.parts = connected_parts(e.assembly, e.last.joints);

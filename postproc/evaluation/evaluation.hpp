@@ -9,6 +9,7 @@
 #include "postproc/evaluation/rib_ratio.hpp"
 #include "postproc/mechanics/block_fields.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
+#include "postproc/mechanics/cracks.hpp"
 #include "postproc/mechanics/cuts.hpp"
 #include "postproc/mechanics/mechanism_motion.hpp"
 #include "postproc/mechanics/member_sums.hpp"
@@ -79,6 +80,7 @@ struct Evaluation {
   std::vector<WytheSum> wythes;    ///< empty without wythes
   std::vector<ChainForces> chains;
   std::vector<Reaction> reactions;           ///< of the last frame, on the supports
+  std::vector<Crack> joint_cracks;           ///< of `last`
   std::vector<ShellCrack> cracks;            ///< of an equilibrium, the widest first
   std::vector<int> parts;                    ///< connected_parts()
   std::optional<MechanismMotion> gives_way;  ///< of a run with a mechanism

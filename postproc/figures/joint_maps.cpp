@@ -7,7 +7,6 @@
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/joint_map.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/mechanics/cracks.hpp"
 #include "postproc/tables/range_values.hpp"
 
 namespace cupola {
@@ -84,7 +83,7 @@ Figure crack_map(const Evaluation& e, const ShellMap& shell) {
   JointMap::Rows joints;
   double length = 0.0, widest = 0.0;
   int cracks = 0;
-  for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
+  for (const Crack& crack : e.joint_cracks) {
     const JointWrench& joint = e.last.joints.wrenches[crack.joint];
     if (!map.has(e.shell, {joint.block_a, joint.block_b})) continue;
     ++cracks;

@@ -10,7 +10,6 @@
 #include "assembly/base/counted.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/mechanics/cracks.hpp"
 #include "postproc/report/gives_way.hpp"
 #include "postproc/report/loads_text.hpp"
 #include "postproc/report/report.hpp"
@@ -133,7 +132,7 @@ KeyNumber margin_answer(const Evaluation& e) {
 std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   const bool rigid = is_limit(e) || !e.summary.ranges.empty();
   if (!at_rest(e) || rigid) return std::nullopt;
-  const std::vector<Crack> cracks = cracks_of(e.last.frame.contacts, e.last.joints);
+  const std::vector<Crack>& cracks = e.joint_cracks;
   if (cracks.empty())
     return KeyNumber{
         "Widest crack", "none",

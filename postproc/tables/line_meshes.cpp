@@ -1,7 +1,6 @@
 #include <functional>
 #include <utility>
 
-#include "postproc/mechanics/cracks.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
 #include "postproc/tables/result_columns.hpp"
@@ -113,7 +112,7 @@ Mesh cracks_mesh(const Evaluation& e) {
   for (const CrackRow& row : crack_rows(e))
     for (const int joint : row.crack.joints) crack_of[joint] = row.number;
   std::vector<std::reference_wrapper<const JointWrench>> cracked;
-  for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
+  for (const Crack& crack : e.joint_cracks) {
     std::vector<int> ids;
     for (const Eigen::Vector2d& corner : crack.open.outline)
       ids.push_back(add_point(&mesh, crack.open.position(corner)));

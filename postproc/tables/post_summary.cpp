@@ -13,7 +13,6 @@
 #include "assembly/base/variant.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/evaluation/margin.hpp"
-#include "postproc/mechanics/cracks.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
@@ -180,7 +179,7 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   }
   if (force > 0.0) s->mean_kern_use = above(kern / force, e.last.joints.floor.share);
   s->crack_length_m = s->widest_crack_m = 0.0;
-  for (const Crack& crack : cracks_of(e.last.frame.contacts, e.last.joints)) {
+  for (const Crack& crack : e.joint_cracks) {
     *s->crack_length_m += crack.extent;
     raise(&s->widest_crack_m, crack.widest_gap);
   }

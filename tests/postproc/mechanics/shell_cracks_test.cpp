@@ -154,6 +154,7 @@ TEST(ShellCracks, HaveTheirNumbersOnTheMap) {
   Vault vault(two_cracks());
   Evaluation& e = vault.evaluation();
   e.cracks = vault.cracks();
+  e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
   const std::string commands = crack_map(e, unrolled()).commands;
   EXPECT_NE(commands.find("$numbers << EOD\n67.5 1 0 1 0 \n225 2 0 1 1 \nEOD"), std::string::npos)
       << commands;
