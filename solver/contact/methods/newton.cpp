@@ -56,7 +56,8 @@ class Stagnation {
   /// `gained`: the cost fell, or the residual fell clearly below its best value.
   void include(bool gained, double residual) {
     without_gain_ = gained ? 0 : without_gain_ + 1;
-    const bool is_best = residual < best_since_largest_ || residual > largest_;
+    constexpr double kFalls = 0.99;  // by less than a hundredth is no fall
+    const bool is_best = residual < kFalls * best_since_largest_ || residual > largest_;
     since_best_ = is_best ? 0 : since_best_ + 1;
     if (is_best) best_since_largest_ = residual;
     largest_ = std::max(largest_, residual);
