@@ -212,7 +212,7 @@ class Compressor : public vtkZLibDataCompressor {
 
   // Higher levels than 2 hardly compress floating-point data further.
   std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> deflate_{
-      libdeflate_alloc_compressor(2), &libdeflate_free_compressor};
+      libdeflate_alloc_compressor(1), &libdeflate_free_compressor};
 };
 
 template <class Writer>
