@@ -29,35 +29,25 @@ std::vector<Mat6> inverse_masses(const ContactProblem& p) {
   return inverse;
 }
 
-namespace {
-
-/// Calls add(D, M_k^-1) for the columns D of a contact on each free block k that it touches.
-template <class Add>
-void for_each_side(const ContactProblem& p, const std::vector<Mat6>& inverse, int i, const Add& add) {
-  const int a = p.block_a[i], b = p.block_b[i];
-  if (a != ContactProblem::kFixed) add(contact_columns(p, i, a), inverse[a]);
-  if (b != ContactProblem::kFixed && b != a) add(contact_columns(p, i, b), inverse[b]);
-}
-
-}  // namespace
-
 std::vector<Mat3> delassus_blocks(const ContactProblem& p) {
   const std::vector<Mat6> inverse = inverse_masses(p);
   std::vector<Mat3> N(p.num_contacts(), Mat3::Zero());
-  for (int i = 0; i < p.num_contacts(); ++i)
-    for_each_side(p, inverse, i,
-                  [&](const Mat63& D, const Mat6& M_inverse) { N[i] += D.transpose() * M_inverse * D; });
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const auto add = [&](int k) {
+      const Mat63 D = contact_columns(p, i, k);
+      N[i] += D.transpose() * inverse[k] * D;
+    };
+    const int a = p.block_a[i], b = p.block_b[i];
+    if (a != ContactProblem::kFixed) add(a);
+    if (b != ContactProblem::kFixed && b != a) add(b);
+  }
   return N;
 }
 
 VecX delassus_traces(const ContactProblem& p) {
-  const std::vector<Mat6> inverse = inverse_masses(p);
-  VecX traces = VecX::Zero(p.num_contacts());
-  for (int i = 0; i < p.num_contacts(); ++i)
-    for_each_side(p, inverse, i, [&](const Mat63& D, const Mat6& M_inverse) {
-      const Mat63 response = M_inverse * D;
-      traces[i] += D.cwiseProduct(response).sum();
-    });
+  const std::vector<Mat3> N = delassus_blocks(p);
+  VecX traces(p.num_contacts());
+  for (int i = 0; i < p.num_contacts(); ++i) traces[i] = N[i].trace();
   return traces;
 }
 
