@@ -74,9 +74,8 @@ Eigen::MatrixXd dense_hessian(const ContactProblem& p, const std::vector<Mat3>& 
 // one block, and of two blocks.
 TEST(BlockMatrix, IsTheSumOverTheContacts) {
   constexpr double kShare = 1e-13;  // rounding of the terms
-  for (const auto& [blocks_per_ring, sectors] : {std::pair{8, 1}, {8, 8}, {8, 4}}) {
-    const ContactProblem p =
-        scenes::dome({.rings = 5, .blocks_per_ring = blocks_per_ring, .sectors = sectors}, 1.0, {});
+  for (const int sectors : {1, 8, 4}) {
+    const ContactProblem p = scenes::dome({.rings = 5, .blocks_per_ring = 8, .sectors = sectors}, 1.0, {});
     const ContactGraph graph = contact_graph(p);
     std::vector<Mat3> G;
     for (int i = 0; i < p.num_contacts(); ++i) {
