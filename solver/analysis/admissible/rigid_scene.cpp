@@ -96,7 +96,7 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
     outside[i] = limit_excess(contact_law(problem, i), gamma.segment<3>(3 * i));
   }
   Frame frame = make_frame(scene.model, scene.start, scene.contacts,
-                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())),
+                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size() / 3)),
                            law_violations(scene.contacts, gamma, outside), scene.memories,
                            std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
   frame.time = time;
@@ -106,7 +106,8 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
 
 Equilibrium balance_of(const RigidScene& scene, const VecX& gamma) {
   return compute_equilibrium(scene.model, scene.start, scene.contacts,
-                             joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size())), scene.start.time);
+                             joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size() / 3)),
+                             scene.start.time);
 }
 
 }  // namespace cupola
