@@ -17,9 +17,9 @@ struct RigidMotions {
 /// Transforms a motion (linear and angular velocity) about the centre `from` to one about the centre `to`.
 Mat6 moved_centre(const Vec3& from, const Vec3& to);
 
-/// The motions of the blocks of a problem. The positions of neighbouring blocks relative to each other follow from the matrices D of their contacts. This also works across the seam of a cyclic
-/// sector, where blocks have frames of their own. Empty if some D is not that of a contact in space, i.e.
-/// three orthonormal directions and their moments.
+/// The motions of the blocks of a problem. The positions of neighbouring blocks relative to each other follow
+/// from the levers of their contacts. This also works across the seam of a cyclic sector, where blocks have
+/// frames of their own. Empty if some lever is not that of a contact in space, with orthonormal axes.
 RigidMotions rigid_motions(const WhitenedProblem& problem, const ContactGraph& graph);
 
 }  // namespace cupola
