@@ -10,12 +10,7 @@ Verdict known_verdict(const std::string& group, const std::string& name) {
   };
   static const Known list[] = {
       {"motion", "wall of 210 blocks by SPG, 20 iterations a step", Verdict::not_met},
-      {"compliance contrast", "wall of 36 blocks, 1e-6 and 1e-14 m/N side by side", Verdict::not_met},
-      {"compliance contrast", "wall pushed by 0.2 g, 1e-14 m/N normal, 1e-06 tangential", Verdict::not_met},
       {"compliance contrast", "wall pushed by 0.2 g, 1e-06 m/N normal, 1e-14 tangential", Verdict::not_met},
-      {"friction", "plate on an incline of mu + 0.1 %, mu 0.001, associated law", Verdict::not_met},
-      {"friction", "plate on an incline of mu + 0.1 %, mu 0.001, Coulomb's law", Verdict::not_met},
-      {"tower of 500", "leaning by 90 % of overturning", Verdict::not_met},
       {"20,000 blocks", "wall, courses of 1e-8 and 1e-13 m/N in turn", Verdict::not_met},
       {"scales", "cubes of 1 mm to 1 km in one stack, the smallest one below", Verdict::not_met},
   };

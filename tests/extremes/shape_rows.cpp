@@ -73,7 +73,6 @@ void add_slender_towers(Rows* rows) {
   Case leaning = statics(0.4, 1e-9);
   leaning.loads.gravity = testing::tilted_gravity(0.9 / 500.0);  // lifts one edge of the lower beds
   add_tower("leaning by 90 % of overturning", leaning, rows);
-  rows->back().slow = true;
 }
 
 void add_heavy_on_light(Rows* rows) {

@@ -11,6 +11,7 @@ namespace cupola {
 void Anderson::restart() {
   dg_.clear();
   df_.clear();
+  last_f_.resize(0);
 }
 
 VecX Anderson::next(const VecX& x, const VecX& g) {

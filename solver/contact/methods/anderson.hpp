@@ -16,6 +16,7 @@ class Anderson {
 
   /// Next point, given x and g(x). Restarts when the residual exceeds ten times the smallest one so far.
   VecX next(const VecX& x, const VecX& g);
+  /// Forgets all points: the next ones may be of another map.
   void restart();
 
  private:
