@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
@@ -118,9 +119,18 @@ bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
   return true;
 }
 
+/// Momentum residual that rounding of the impulses may cause: no contact solve reaches less.
+double ComingToRest::rounding_of_impulses(double reference_speed) const {
+  constexpr double kMargin = 32.0;  // contacts of a block, and a few roundings of each
+  const double largest = x_.gamma.size() > 0 ? x_.gamma.cwiseAbs().maxCoeff() : 0.0;
+  return kMargin * std::numeric_limits<double>::epsilon() * largest /
+         (root_mean_mass(step_.problem) * reference_speed);
+}
+
 void ComingToRest::iterate() {
   ContactSolverOptions solve = solve_options();
-  solve.tolerance *= tightening_;
+  solve.tolerance = std::max(tightening_ * solve.tolerance,
+                             std::min(solve.tolerance, rounding_of_impulses(solve.reference_speed)));
   // After the first iteration few joints change their state, and the last factor is a good preconditioner.
   solve.lag_factor = x_.v.size() > 0 && !has_many_blocks(step_.problem);
   const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(step_.problem.v_star.size());
@@ -147,7 +157,7 @@ void ComingToRest::adapt(double contraction) {
   constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0, kTightening = 0.1;
   if (contraction <= kSlow) return;
   if (std::isinf(largest_h_)) {
-    if (trial_.speed_ratio <= kAtRest) tightening_ *= kTightening;
+    if (contraction <= kNoProgress || trial_.speed_ratio <= kAtRest) tightening_ *= kTightening;
     return;
   }
   const double growth = contraction < 1.0 ? std::sqrt(contraction / (1.0 - contraction) / kWanted) : kLargest;

@@ -29,6 +29,7 @@ class ComingToRest : public ProximalPoint {
 
  private:
   void iterate() override;
+  double rounding_of_impulses(double reference_speed) const;
   bool shorten_step() override;
   void adapt(double contraction) override;
   std::optional<StaticSolution> judge_motion(double contraction) override;

@@ -162,7 +162,6 @@ StaticSolution ProximalPoint::give_up() {
 }
 
 StaticSolution ProximalPoint::run() {
-  constexpr double kNoProgress = 0.5;  // contraction from which blocks may be moving
   for (int k = 0; k < pace_.max_solves; ++k) {
     iterate();
     options_.log(fmt::format(

@@ -10,6 +10,9 @@ namespace cupola {
 /// A speed ratio smaller than that of any mechanism whose load exceeds the critical one by a millionth.
 constexpr double kAtRest = 1e-6;
 
+/// Contraction of the residual from which blocks may be moving.
+constexpr double kNoProgress = 0.5;
+
 /// Part of the tolerance for the contact solve; inertia takes the rest.
 constexpr double kSolveShare = 0.1;
 

@@ -75,7 +75,7 @@ class OuterIteration {
   ContactSolution x_;
   const bool accelerated_;
   Anderson anderson_;
-  double share_ = 0.0;
+  double share_ = 0.0, smallest_share_ = 1e-9;
   VecX R_, shift_;
 };
 
@@ -87,15 +87,17 @@ void OuterIteration::set_share(double share) {
   anderson_.restart();
 }
 
-/// A smaller R contracts faster where impulses are poorly determined; a larger one loses fewer digits.
+/// A smaller R contracts faster where impulses are poorly determined; a larger one loses fewer digits. No R
+/// comes back that lost too many.
 void OuterIteration::adapt_share(const Residuals& residuals, double error, double last_error) {
-  constexpr double kSmallest = 1e-9, kLargest = 1e-2;
+  constexpr double kLargest = 1e-2;
   constexpr double kSlow = 0.2;  // an outer iteration that gains less than this factor is not worth its cost
   if (share_ == 0.0) return;
   if (residuals.momentum > options_.tolerance && share_ < kLargest) {
     set_share(10.0 * share_);
-  } else if (residuals.momentum <= 0.1 * options_.tolerance && error > kSlow * last_error &&
-             share_ > kSmallest) {
+    smallest_share_ = share_;
+  } else if (residuals.momentum <= 0.1 * std::max(options_.tolerance, residuals.rigid_contact_speed) &&
+             error > kSlow * last_error && share_ > smallest_share_) {
     set_share(0.1 * share_);
   }
 }
