@@ -10,8 +10,6 @@ Verdict known_verdict(const std::string& group, const std::string& name) {
   };
   static const Known list[] = {
       {"motion", "wall of 210 blocks by SPG, 20 iterations a step", Verdict::not_met},
-      {"compliance contrast", "wall pushed by 0.2 g, 1e-06 m/N normal, 1e-14 tangential", Verdict::not_met},
-      {"20,000 blocks", "wall, courses of 1e-8 and 1e-13 m/N in turn", Verdict::not_met},
       {"scales", "cubes of 1 mm to 1 km in one stack, the smallest one below", Verdict::not_met},
   };
   for (const Known& known : list)

@@ -104,7 +104,8 @@ void OuterIteration::adapt_share(const Residuals& residuals, double error, doubl
 
 void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solution, SolveSummary* summary) {
   SolveOptions inner = options_;
-  inner.tolerance = 0.5 * options_.tolerance;
+  const double coarse = 0.5 * options_.tolerance;
+  inner.tolerance = coarse;
   double best = std::numeric_limits<double>::infinity(), last = best;
   Residuals best_residuals;
   int best_iteration = 0, iteration = 0;
@@ -119,6 +120,12 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
       summary->message = fmt::format("outer iteration {}: {}", iteration, solved.message);
       break;
     }
+
+    // A solve that keeps its guess shows nothing of the map, and differences of its errors mislead Anderson.
+    if (solved.iterations == 0 && accelerated_)
+      inner.tolerance = std::min(inner.tolerance, 0.1 * solved.reached);
+    else if (solved.ending != SolveEnding::converged)
+      inner.tolerance = coarse;
 
     // 2. Residuals on the given problem
     const Residuals residuals = compute_residuals(problem_, x_, options_.reference_speed, options_.law);

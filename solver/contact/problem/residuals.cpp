@@ -106,9 +106,11 @@ void measure_contact_law(const ContactProblem& p, const ContactSolution& x, cons
 
 double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, const VecX& rigid_metrics) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
+  constexpr double kInside = 1.0 - 1e-12;  // in slip the shear is at its limit to rounding
   const int nc = p.num_contacts();
   const double squared = sum_in_order(pass_over(nc), nc, 0.0, [&](int i) {
-    if (x.gamma.segment<3>(3 * i).isZero(0.0)) return 0.0;  // open: gamma = 0 exactly
+    const Vec3 gamma = x.gamma.segment<3>(3 * i);
+    if (gamma.isZero(0.0)) return 0.0;  // open: gamma = 0 exactly
     double speed = p.b.segment<3>(3 * i).norm();
     const auto add = [&](int k, const Lever& D) {
       if (k != ContactProblem::kFixed) speed += D.size_of_velocity(x.v.segment<6>(6 * k)).norm();
@@ -116,7 +118,10 @@ double contact_law_rounding(const ContactProblem& p, const ContactSolution& x, c
     add(p.block_a[i], p.D_a[i]);
     add(p.block_b[i], p.D_b[i]);
     const ContactLaw law = contact_law(p, i);
-    const double compliance = is_rigid(law) ? rigid_metrics[i] : law.e_n;
+    const bool sticks = gamma.tail<2>().norm() < kInside * law.shear_limit(gamma[0]);
+    const double compliance = is_rigid(law) ? rigid_metrics[i]
+                              : sticks      ? std::min(law.e_n, law.e_t)
+                                            : law.e_n;
     return std::pow(kEps * speed / compliance, 2);
   });
   return squared > 0.0 ? std::sqrt(squared) / x.gamma.norm() : 0.0;

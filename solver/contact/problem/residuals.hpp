@@ -21,8 +21,9 @@ struct Residuals {
   /// reference_speed), the speed by which a contact violates its law. contact_law is weighted by impulses and
   /// does not detect slow creep.
   double rigid_contact_speed = 0.0;
-  /// Part of contact_law that is due to rounding of D^T v alone: eps | |D|^T |v| / E | / |gamma|. Large where
-  /// blocks slide fast on contacts of tiny compliance; no pair (v, gamma) in double precision does better.
+  /// Part of contact_law that is due to rounding of D^T v alone: eps | |D|^T |v| / E | / |gamma|, with E of
+  /// shear in stick only. Large where blocks slide fast on contacts of tiny compliance; no pair (v, gamma) in
+  /// double precision does better.
   double contact_law_rounding = 0.0;
   /// max over contacts of limit_excess() (dry: (|gamma_t| - mu gamma_n)+ and (-gamma_n)+), over the largest
   /// |gamma_n|.
