@@ -1,9 +1,8 @@
 #include "solver/dynamics/contact_memory.hpp"
 
 #include <algorithm>
-#include <map>
-#include <optional>
 #include <utility>
+#include <vector>
 
 #include "assembly/base/error.hpp"
 
@@ -23,24 +22,37 @@ ContactId patch_of(ContactId id) {
   return id;
 }
 
-/// Mean damage of the points of each patch.
-class PatchDamage {
+/// The contacts before, by identity.
+class OldContacts {
  public:
-  explicit PatchDamage(const ContactMemories& memories) {
-    for (size_t i = 0; i < memories.ids.size(); ++i) {
-      auto& [sum, count] = patches_[patch_of(memories.ids[i])];
-      sum += memories.of(i).joint.damage;
-      ++count;
-    }
+  explicit OldContacts(const ContactMemories& memories) : memories_(memories) {
+    for (size_t i = 0; i < memories.ids.size(); ++i) sorted_.emplace_back(memories.ids[i], i);
+    std::sort(sorted_.begin(), sorted_.end());
   }
-  /// 1 if the patch is new.
-  double at(const ContactId& id) const {
-    const auto found = patches_.find(patch_of(id));
-    return found == patches_.end() ? 1.0 : found->second.first / found->second.second;
+  /// Null for a new contact.
+  const ContactMemory* find(const ContactId& id) const {
+    const auto found = first_from(id);
+    return found != sorted_.end() && found->first == id ? &memories_.of(found->second) : nullptr;
+  }
+  /// Mean damage of the points of the patch; 1 if it is new.
+  double damage_of_patch(const ContactId& id) const {
+    double sum = 0.0;
+    int count = 0;
+    for (auto point = first_from(patch_of(id)); point != sorted_.end(); ++point, ++count) {
+      if (patch_of(point->first) != patch_of(id)) break;
+      sum += memories_.of(point->second).joint.damage;
+    }
+    return count > 0 ? sum / count : 1.0;
   }
 
  private:
-  std::map<ContactId, std::pair<double, int>> patches_;
+  using Entry = std::pair<ContactId, size_t>;
+  std::vector<Entry>::const_iterator first_from(const ContactId& id) const {
+    return std::lower_bound(sorted_.begin(), sorted_.end(), Entry{id, 0});
+  }
+
+  const ContactMemories& memories_;
+  std::vector<Entry> sorted_;
 };
 
 }  // namespace
@@ -65,18 +77,14 @@ ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& 
   matched.values.resize(contacts.size());
   matched.ties = old.ties;
   matched.as_built = false;
-  std::map<ContactId, size_t> index;  // of the old contacts
-  for (size_t i = 0; i < old.ids.size(); ++i) index.emplace(old.ids[i], i);
-  std::optional<PatchDamage> damage;
+  const OldContacts before(old);
   for (size_t i = 0; i < contacts.size(); ++i) {
-    const auto found = index.find(contacts[i].id);
-    if (found != index.end()) {
-      matched.values[i] = old.of(found->second);
-    } else {
-      if (!damage) damage.emplace(old);
-      matched.values[i].joint.damage = damage->at(contacts[i].id);
-    }
-    matched.ids.push_back(contacts[i].id);
+    const ContactId& id = contacts[i].id;
+    if (const ContactMemory* memory = before.find(id))
+      matched.values[i] = *memory;
+    else
+      matched.values[i].joint.damage = before.damage_of_patch(id);
+    matched.ids.push_back(id);
   }
   return matched;
 }

@@ -5,6 +5,7 @@
 #include <cblas.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/runtime/threads.hpp"
 
 extern "C" void dtrtri_(const char* uplo, const char* diag, const int* n, double* a, const int* lda,
                         int* info);
@@ -26,21 +27,26 @@ SingleFactor::SingleFactor(const FactorStructure& structure, int unknowns, std::
   accurate_ = largest <= kLargest;
   if (!accurate_) return;
   values_.resize(values.size());
-  std::vector<double> work;
-  for (int panel = 0; panel < structure.num_panels(); ++panel) {
+  const auto invert = [&](int panel, std::vector<double>* work) {
     const int n = m * structure.num_columns(panel), ld = m * structure.num_rows(panel), rest = ld - n;
     const std::int64_t start = m * m * structure.value_start[panel];
-    work.assign(values.begin() + start, values.begin() + start + std::int64_t{n} * ld);
-    for (int c = 1; c < n; ++c) std::fill_n(work.begin() + std::int64_t{c} * ld, c, 0.0);
+    work->assign(values.begin() + start, values.begin() + start + std::int64_t{n} * ld);
+    for (int c = 1; c < n; ++c) std::fill_n(work->begin() + std::int64_t{c} * ld, c, 0.0);
     int info = 0;
-    dtrtri_("L", "N", &n, work.data(), &ld, &info);
+    dtrtri_("L", "N", &n, work->data(), &ld, &info);
     CUPOLA_ASSERT(info == 0);
     if (rest > 0)
       cblas_dtrmm(CblasColMajor, CblasRight, CblasLower, CblasNoTrans, CblasNonUnit, rest, n, 1.0,
-                  work.data(), ld, work.data() + n, ld);
-    std::transform(work.begin(), work.end(), values_.begin() + start,
+                  work->data(), ld, work->data() + n, ld);
+    std::transform(work->begin(), work->end(), values_.begin() + start,
                    [](double value) { return static_cast<float>(value); });
-  }
+  };
+  constexpr double kOperationsPerValue = 50.0;
+  share_range(kOperationsPerValue * static_cast<double>(values.size()), structure.num_panels(),
+              [&](int first, int last) {
+                std::vector<double> work;
+                for (int panel = first; panel < last; ++panel) invert(panel, &work);
+              });
 }
 
 void SingleFactor::solve(const FactorStructure& structure, int unknowns, Eigen::VectorXf* x) const {
