@@ -152,14 +152,15 @@ bool ComingToRest::shorten_step() {
 
 /// After an iteration that reduced the residual by less than a digit: lengthens the step, because an elastic
 /// mode of eigenvalue lambda contracts by 1 / (1 + h^2 lambda). Rigid joints do not contract; what remains at
-/// rest is the error of the contact solve, summed over the courses.
+/// rest is the error of the contact solve, summed over the courses. A solve that kept its guess would keep it
+/// again.
 void ComingToRest::adapt(double contraction) {
   constexpr double kSlow = 0.1, kWanted = 1e-2, kSmallest = 2.0, kLargest = 10.0, kTightening = 0.1;
   if (contraction <= kSlow) return;
-  if (std::isinf(largest_h_)) {
-    if (contraction <= kNoProgress || trial_.speed_ratio <= kAtRest) tightening_ *= kTightening;
-    return;
-  }
+  const bool rigid = std::isinf(largest_h_), kept = trial_.solve.iterations == 0;
+  if (kept || (rigid && (contraction <= kNoProgress || trial_.speed_ratio <= kAtRest)))
+    tightening_ *= kTightening;
+  if (rigid) return;
   const double growth = contraction < 1.0 ? std::sqrt(contraction / (1.0 - contraction) / kWanted) : kLargest;
   const double h = std::min(largest_h_, std::clamp(growth, kSmallest, kLargest) * trial_.h);
   if (h > trial_.h) set_step(h);
