@@ -122,6 +122,7 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
     }
 
     // A solve that keeps its guess shows nothing of the map, and differences of its errors mislead Anderson.
+    // Where rounding forbids the smaller tolerance, the solve ends otherwise.
     if (solved.iterations == 0 && accelerated_)
       inner.tolerance = std::min(inner.tolerance, 0.1 * solved.reached);
     else if (solved.ending != SolveEnding::converged)
