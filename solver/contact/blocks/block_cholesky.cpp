@@ -7,6 +7,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/contact/blocks/panel_factor.hpp"
+#include "solver/contact/blocks/panel_solve.hpp"
 #include "solver/runtime/threads.hpp"
 
 extern "C" void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info);
@@ -94,66 +95,35 @@ bool BlockCholesky::factorize(const BlockPattern& pattern, const BlockMatrix& ma
 
 VecX BlockCholesky::solve(const VecX& rhs) const {
   CUPOLA_ASSERT(valid_ && rhs.size() == 6 * pattern_.num_blocks());
-  VecX x = in_order_of_elimination<double>(rhs), below(x.size());
-  const int num_panels = structure_.num_panels();
-  for (int panel = 0; panel < num_panels; ++panel) {  // L y = rhs
-    const int columns = structure_.num_columns(panel), rest = structure_.num_rows(panel) - columns;
-    const int n = m_ * columns, ld = m_ * (columns + rest);
-    double* own = x.data() + m_ * structure_.first_column[panel];
-    const double* L = values(panel);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasNoTrans, CblasNonUnit, n, L, ld, own, 1);
-    if (rest == 0) continue;
-    cblas_dgemv(CblasColMajor, CblasNoTrans, m_ * rest, n, 1.0, L + n, ld, own, 1, 0.0, below.data(), 1);
-    const int* rows = structure_.rows(panel) + columns;
-    for (int i = 0; i < rest; ++i) {
-      for (int r = 0; r < m_; ++r) x[m_ * rows[i] + r] -= below[m_ * i + r];
-    }
-  }
-  for (int panel = num_panels - 1; panel >= 0; --panel) {  // L^T x = y
-    const int columns = structure_.num_columns(panel), rest = structure_.num_rows(panel) - columns;
-    const int n = m_ * columns, ld = m_ * (columns + rest);
-    double* own = x.data() + m_ * structure_.first_column[panel];
-    const double* L = values(panel);
-    const int* rows = structure_.rows(panel) + columns;
-    for (int i = 0; i < rest; ++i) {
-      for (int r = 0; r < m_; ++r) below[m_ * i + r] = x[m_ * rows[i] + r];
-    }
-    if (rest > 0)
-      cblas_dgemv(CblasColMajor, CblasTrans, m_ * rest, n, -1.0, L + n, ld, below.data(), 1, 1.0, own, 1);
-    cblas_dtrsv(CblasColMajor, CblasLower, CblasTrans, CblasNonUnit, n, L, ld, own, 1);
-  }
-  return in_order_of_blocks(x, rhs);
-}
-
-template <class Scalar>
-Eigen::Matrix<Scalar, Eigen::Dynamic, 1> BlockCholesky::in_order_of_elimination(const VecX& rhs) const {
-  const std::span<const int> unknowns = unknowns_of_block(pattern_);
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x(m_ * pattern_.num_blocks());
-  for (int k = 0; k < pattern_.num_blocks(); ++k) {
-    for (int r = 0; r < m_; ++r)
-      x[m_ * structure_.position[k] + r] = static_cast<Scalar>(rhs[6 * k + unknowns[r]]);
-  }
-  return x;
-}
-
-template <class Scalar>
-VecX BlockCholesky::in_order_of_blocks(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& x,
-                                       const VecX& rhs) const {
-  const std::span<const int> unknowns = unknowns_of_block(pattern_);
-  VecX solution = rhs;  // rows that are no unknowns are those of the identity
-  for (int k = 0; k < pattern_.num_blocks(); ++k) {
-    for (int r = 0; r < m_; ++r) solution[6 * k + unknowns[r]] = x[m_ * structure_.position[k] + r];
-  }
-  return solution;
+  const auto divide_own_rows = [&](int panel, CBLAS_TRANSPOSE transposed, double* own) {
+    const int n = m_ * structure_.num_columns(panel), ld = m_ * structure_.num_rows(panel);
+    cblas_dtrsv(CblasColMajor, CblasLower, transposed, CblasNonUnit, n, values(panel), ld, own, 1);
+  };
+  const auto multiply_rows_below = [&](int panel, CBLAS_TRANSPOSE transposed, const double* by, double beta,
+                                       double* result) {
+    const int n = m_ * structure_.num_columns(panel), ld = m_ * structure_.num_rows(panel);
+    if (ld > n)
+      cblas_dgemv(CblasColMajor, transposed, ld - n, n, 1.0, values(panel) + n, ld, by, 1, beta, result, 1);
+  };
+  return solve_by_panels<double>(
+      pattern_, structure_, rhs,
+      [&](int panel, const double* own, double* product) {
+        const int n = m_ * structure_.num_columns(panel);
+        std::copy_n(own, n, product);
+        divide_own_rows(panel, CblasNoTrans, product);
+        multiply_rows_below(panel, CblasNoTrans, product, 0.0, product + n);
+      },
+      [&](int panel, const double* product, double* own) {
+        const int n = m_ * structure_.num_columns(panel);
+        multiply_rows_below(panel, CblasTrans, product + n, 1.0, own);
+        divide_own_rows(panel, CblasTrans, own);
+      });
 }
 
 VecX BlockCholesky::solve_approximately(const VecX& rhs) {
   CUPOLA_ASSERT(valid_ && rhs.size() == 6 * pattern_.num_blocks());
   if (!single_) single_ = SingleFactor(structure_, m_, values_);
-  if (!single_->is_accurate()) return solve(rhs);
-  Eigen::VectorXf x = in_order_of_elimination<float>(rhs);
-  single_->solve(structure_, m_, &x);
-  return in_order_of_blocks(x, rhs);
+  return single_->is_accurate() ? single_->solve(pattern_, structure_, rhs) : solve(rhs);
 }
 
 long long BlockCholesky::num_nonzeros() const {

@@ -61,11 +61,6 @@ class BlockCholesky {
   void fill(const BlockMatrix& matrix, int panel, const PanelTile& tile);
   bool factorize_own_rows(int panel);
   void divide(int panel, const PanelTile& tile);
-  /// The unknowns of a right-hand side, and a solution from unknowns.
-  template <class Scalar>
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> in_order_of_elimination(const VecX& rhs) const;
-  template <class Scalar>
-  VecX in_order_of_blocks(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& x, const VecX& rhs) const;
 
   BlockPattern pattern_;
   FactorStructure structure_;

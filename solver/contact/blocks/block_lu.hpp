@@ -3,39 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/contact/blocks/contact_jacobian.hpp"
 #include "solver/contact/blocks/panel_factor.hpp"
 
 namespace cupola {
-
-/// Unsymmetric matrix of 6x6 blocks with a symmetric pattern.
-struct UnsymmetricBlockMatrix {
-  std::vector<Mat6> diagonal;  ///< (nb)
-  std::vector<Mat6> lower;     ///< block (row, column), row > column, of each pair (num_pairs)
-  std::vector<Mat6> upper;     ///< block (column, row) of each pair (num_pairs)
-};
-
-/// I + sum_i J_i G_i J_i^T of one problem for a sequence of unsymmetric G. Only the 6x6 blocks with a contact
-/// whose G has changed are summed anew, in the order of the contacts: the bits do not depend on the sequence.
-class ContactJacobian {
- public:
-  ContactJacobian(const WhitenedProblem& problem, const ContactGraph& graph);
-  const UnsymmetricBlockMatrix& at(const std::vector<Mat3>& G);
-
- private:
-  void mark_changed(const std::vector<Mat3>& G);
-  void sum_marked();
-  void whiten_marked();
-
-  const WhitenedProblem& white_;
-  const ContactProblem& problem_;
-  const ContactGraph& graph_;
-  std::vector<Mat3> G_;  ///< of J_ (nc)
-  UnsymmetricBlockMatrix J_;
-  std::vector<char> block_changes_, pair_changes_;
-};
-
-/// Matrix times vector (6 nb).
-VecX multiply(const BlockPattern& pattern, const UnsymmetricBlockMatrix& matrix, const VecX& x);
 
 /// Sparse left-looking factor A = L D U of an UnsymmetricBlockMatrix by panels (factor_structure.hpp). D
 /// holds the own rows and columns of the panels; L and U have identities there. With W = D U:

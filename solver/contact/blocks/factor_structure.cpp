@@ -183,6 +183,23 @@ void set_subtrees(const std::vector<int>& panel_of_column, FactorStructure* f) {
                            [&](const FactorStructure::Subtree& tree) { return work[tree.last - 1]; });
 }
 
+/// The panels of a subtree reach only those rows beyond it that its last panel has.
+void set_targets(FactorStructure* f) {
+  const auto nb = static_cast<int>(f->position.size());
+  f->target = f->row;
+  std::vector<int> sum(nb);  // of the present subtree, at the positions that it reaches
+  for (const FactorStructure::Subtree& tree : f->subtrees) {
+    const int last = tree.last - 1, end = f->first_column[tree.last];
+    for (int i = f->num_columns(last); i < f->num_rows(last); ++i) {
+      sum[f->rows(last)[i]] = nb + static_cast<int>(f->top_row.size());
+      f->top_row.push_back(f->rows(last)[i]);
+    }
+    for (auto k = f->row_start[tree.first]; k < f->row_start[tree.last]; ++k)
+      if (f->row[k] >= end) f->target[k] = sum[f->row[k]];
+  }
+  for (int k = 0; k < f->num_panels(); ++k) f->most_rows = std::max(f->most_rows, f->num_rows(k));
+}
+
 FactorStructure analyze_anew(const BlockPattern& pattern) {
   FactorStructure f;
   {
@@ -194,6 +211,7 @@ FactorStructure analyze_anew(const BlockPattern& pattern) {
   set_entries(pattern, panel_of_column, &f);
   set_updates(panel_of_column, &f);
   set_subtrees(panel_of_column, &f);
+  set_targets(&f);
   return f;
 }
 

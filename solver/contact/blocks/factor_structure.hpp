@@ -46,6 +46,12 @@ struct FactorStructure {
   double work = 0.0;              ///< block operations of a factorisation
   std::vector<int> top;           ///< the remaining panels, ascending; factorised after the subtrees
 
+  // For substitutions, in which subtrees are independent of each other:
+  std::vector<int> target;   ///< where a panel adds to the row: its position, or for rows of the top that
+                             ///< panels of a subtree have nb + index in `top_row` (as `row`)
+  std::vector<int> top_row;  ///< positions; each subtree has its own sum for each row of the top it reaches
+  int most_rows = 0;         ///< of a panel
+
   int num_panels() const { return static_cast<int>(first_column.size()) - 1; }
   int num_columns(int panel) const { return first_column[panel + 1] - first_column[panel]; }
   int num_rows(int panel) const { return static_cast<int>(row_start[panel + 1] - row_start[panel]); }

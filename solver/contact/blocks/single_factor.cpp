@@ -5,6 +5,7 @@
 #include <cblas.h>
 
 #include "assembly/base/error.hpp"
+#include "solver/contact/blocks/panel_solve.hpp"
 #include "solver/runtime/threads.hpp"
 
 extern "C" void dtrtri_(const char* uplo, const char* diag, const int* n, double* a, const int* lda,
@@ -49,35 +50,19 @@ SingleFactor::SingleFactor(const FactorStructure& structure, int unknowns, std::
               });
 }
 
-void SingleFactor::solve(const FactorStructure& structure, int unknowns, Eigen::VectorXf* x) const {
+VecX SingleFactor::solve(const BlockPattern& pattern, const FactorStructure& structure,
+                         const VecX& rhs) const {
   CUPOLA_ASSERT(accurate_ && !values_.empty());
-  const int m = unknowns;
-  Eigen::VectorXf product(x->size());
-  const int num_panels = structure.num_panels();
-  for (int panel = 0; panel < num_panels; ++panel) {  // L y = b
-    const int columns = structure.num_columns(panel), num_rows = structure.num_rows(panel);
-    const int n = m * columns, ld = m * num_rows;
-    float* own = x->data() + m * structure.first_column[panel];
-    cblas_sgemv(CblasColMajor, CblasNoTrans, ld, n, 1.0F,
-                values_.data() + m * m * structure.value_start[panel], ld, own, 1, 0.0F, product.data(), 1);
-    std::copy_n(product.data(), n, own);
-    const int* rows = structure.rows(panel);
-    for (int i = columns; i < num_rows; ++i) {
-      for (int r = 0; r < m; ++r) (*x)[m * rows[i] + r] -= product[m * i + r];
-    }
-  }
-  for (int panel = num_panels - 1; panel >= 0; --panel) {  // L^T x = y
-    const int columns = structure.num_columns(panel), num_rows = structure.num_rows(panel);
-    const int n = m * columns, ld = m * num_rows;
-    float* own = x->data() + m * structure.first_column[panel];
-    const int* rows = structure.rows(panel);
-    std::copy_n(own, n, product.data());
-    for (int i = columns; i < num_rows; ++i) {
-      for (int r = 0; r < m; ++r) product[m * i + r] = -(*x)[m * rows[i] + r];
-    }
-    cblas_sgemv(CblasColMajor, CblasTrans, ld, n, 1.0F, values_.data() + m * m * structure.value_start[panel],
-                ld, product.data(), 1, 0.0F, own, 1);
-  }
+  const int m = static_cast<int>(unknowns_of_block(pattern).size());
+  const auto multiply = [&](int panel, CBLAS_TRANSPOSE transposed, const float* by, float* result) {
+    const int n = m * structure.num_columns(panel), ld = m * structure.num_rows(panel);
+    cblas_sgemv(CblasColMajor, transposed, ld, n, 1.0F, values_.data() + m * m * structure.value_start[panel],
+                ld, by, 1, 0.0F, result, 1);
+  };
+  return solve_by_panels<float>(
+      pattern, structure, rhs,
+      [&](int panel, const float* own, float* product) { multiply(panel, CblasNoTrans, own, product); },
+      [&](int panel, const float* product, float* own) { multiply(panel, CblasTrans, product, own); });
 }
 
 }  // namespace cupola

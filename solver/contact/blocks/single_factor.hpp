@@ -21,8 +21,8 @@ class SingleFactor {
 
   /// False if rounding to single precision may change the solution by more than a few percent.
   bool is_accurate() const { return accurate_; }
-  /// Solves L L^T x = b in place, in the order of elimination. Requires is_accurate().
-  void solve(const FactorStructure& structure, int unknowns, Eigen::VectorXf* x) const;
+  /// The solution of L L^T x = rhs. Requires is_accurate().
+  VecX solve(const BlockPattern& pattern, const FactorStructure& structure, const VecX& rhs) const;
 
  private:
   std::vector<float> values_;  ///< T^-1 and B T^-1 of the panels, by columns

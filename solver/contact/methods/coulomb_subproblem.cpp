@@ -5,25 +5,42 @@
 #include <utility>
 
 #include "solver/runtime/interruption.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
+namespace {
+
+/// Calls body(i) for every contact, on all threads.
+template <class Body>
+void by_contacts(const CoulombSubproblem& sub, const Body& body) {
+  constexpr double kOperationsPerContact = 100.0;
+  const int nc = sub.white.given.num_contacts();
+  share_sums(kOperationsPerContact * nc, nc, [&](int first, int last) {
+    for (int i = first; i < last; ++i) body(i);
+  });
+}
+
+}  // namespace
 
 VecX CoulombSubproblem::velocity(const VecX& w) const {
-  VecX y = relative_velocity(white, w) + white.given.b;
-  for (int i = 0; i < R.size(); ++i) y.segment<3>(3 * i) -= R[i] * centre.segment<3>(3 * i);
+  VecX y = relative_velocity(white, w);
+  by_contacts(*this, [&](int i) {
+    y.segment<3>(3 * i) += white.given.b.segment<3>(3 * i);
+    y.segment<3>(3 * i) -= R[i] * centre.segment<3>(3 * i);
+  });
   return y;
 }
 
 VecX CoulombSubproblem::impulses(const VecX& y) const {
   VecX gamma(y.size());
-  for (int i = 0; i < R.size(); ++i)
-    gamma.segment<3>(3 * i) = contact_impulse(contact(i), y.segment<3>(3 * i));
+  by_contacts(*this,
+              [&](int i) { gamma.segment<3>(3 * i) = contact_impulse(contact(i), y.segment<3>(3 * i)); });
   return gamma;
 }
 
 std::vector<Mat3> CoulombSubproblem::stiffnesses(const VecX& y) const {
   std::vector<Mat3> G(white.given.num_contacts());
-  for (int i = 0; i < R.size(); ++i) G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i));
+  by_contacts(*this, [&](int i) { G[i] = contact_stiffness(contact(i), y.segment<3>(3 * i)); });
   return G;
 }
 
