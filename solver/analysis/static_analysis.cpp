@@ -68,7 +68,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   // The detector is destroyed at once: for a large model it is as large as the contact problem.
   const ContactSet contacts = [&] {
     ContactDetector detector(assembly, detection_options(scene));
-    return contacts_at_rest(rest, assembly, &detector);
+    contacts_at_rest(rest, assembly, &detector);
+    return std::move(detector).take_contacts();
   }();
   sinks.as_built(contacts);
   release_freed_memory();

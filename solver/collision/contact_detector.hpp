@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/collision/collision_model.hpp"
@@ -79,6 +80,7 @@ class ContactDetector {
 
   /// Contacts at the poses of the last update.
   const ContactSet& contacts() const { return memory_.contacts.set; }
+  ContactSet take_contacts() && { return std::move(memory_.contacts.set); }  ///< without a copy
 
   /// For checkpoints.
   const DetectionMemory& memory() const { return memory_; }
