@@ -35,9 +35,10 @@ ExitCode search(double seconds, std::uint64_t first) {
   std::uint64_t seed = first;
   for (const double start = wall_seconds(); wall_seconds() - start < seconds; ++seed)
     for (const auto law : {FrictionLaw::associated, FrictionLaw::coulomb}) {
-      const ExtremeScene row = random_row(seed, law);
-      all.push_back({row.name, run_extreme(row)});
-      if (all.back().result.verdict != Verdict::right) print(all.back());
+      for (const ExtremeScene& row : {random_row(seed, law), random_tower_row(seed, law)}) {
+        all.push_back({row.name, run_extreme(row)});
+        if (all.back().result.verdict != Verdict::right) print(all.back());
+      }
     }
   std::sort(all.begin(), all.end(),
             [](const Found& a, const Found& b) { return a.result.iterations > b.result.iterations; });

@@ -14,4 +14,8 @@ Scene random_scene(std::uint64_t seed, FrictionLaw law);
 /// known in extended precision; under Coulomb's law only the balance of the whole is.
 ExtremeScene random_row(std::uint64_t seed, FrictionLaw law);
 
+/// The row of a tower of 3 to 300 random boxes, beside or above each other's middle, with joints from rigid to
+/// soft, of which it is known whether it stands.
+ExtremeScene random_tower_row(std::uint64_t seed, FrictionLaw law);
+
 }  // namespace cupola

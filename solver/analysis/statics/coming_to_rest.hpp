@@ -42,6 +42,7 @@ class ComingToRest : public ProximalPoint {
   double required_forces() const;
   bool is_proven_to_move();
   bool moves_steadily(double contraction, int count);
+  bool is_driven_by_loads() const;
 
   int num_steady_ = 0;
   double tightening_ = 1.0;                  // factor on the tolerance of the contact solves

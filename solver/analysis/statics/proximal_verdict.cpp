@@ -51,11 +51,21 @@ bool ComingToRest::moves_steadily(double contraction, int count) {
   return num_steady_ >= count;
 }
 
+/// True if the loads do more work on the motion than violations of the contact law at rigid contacts may. A
+/// tall tower whose forces balance creeps by them from iteration to iteration.
+bool ComingToRest::is_driven_by_loads() const {
+  const VecX f = applied_forces(model_, start_, start_.time + options_.time_advance);
+  const double violation = trial_.residuals.rigid_contact_speed * trial_.h * acceleration_;
+  return f.dot(trial_.increment) / trial_.h >
+         violation * normal_force_sum(step_.problem, trial_.step_solution.gamma);
+}
+
 /// A motion is proven under the associated law only.
 std::optional<StaticSolution> ComingToRest::judge_motion(double contraction) {
   constexpr int kMoving = 3, kUnproven = 15;  // steady iterations until the search ends
   if (!options_.solve.law.is_associated())
-    return moves_steadily(contraction, kMoving) ? std::optional(finish_moving("")) : std::nullopt;
+    return moves_steadily(contraction, kMoving) && is_driven_by_loads() ? std::optional(finish_moving(""))
+                                                                        : std::nullopt;
   const double required = required_forces();
   if (required >= kFarFromEquilibrium) {
     if (is_proven_to_move()) {
