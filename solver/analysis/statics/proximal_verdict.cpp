@@ -52,8 +52,8 @@ bool ComingToRest::moves_steadily(double contraction, int count) {
 }
 
 /// True if the loads do more work on the motion than violations of the contact law at rigid contacts may.
-/// Where vertical forces F in the cones balance the loads f, f . v = -F . D^T v, which is positive only by
-/// contacts that approach each other: a tall tower creeps by them from iteration to iteration.
+/// Where normal forces F alone balance the loads f, f . v = -F . D^T v is positive only by contacts that
+/// approach each other: by them a tall tower creeps from iteration to iteration.
 bool ComingToRest::is_driven_by_loads() const {
   const VecX f = applied_forces(model_, start_, start_.time + options_.time_advance);
   const double violation = trial_.residuals.rigid_contact_speed * trial_.h * acceleration_;

@@ -47,9 +47,9 @@ struct FactorStructure {
   std::vector<int> top;           ///< the remaining panels, ascending; factorised after the subtrees
 
   // For substitutions, in which subtrees are independent of each other:
-  std::vector<int> target;   ///< where a panel adds to the row: its position, or for rows of the top that
-                             ///< panels of a subtree have nb + index in `top_row` (as `row`)
-  std::vector<int> top_row;  ///< positions; each subtree has its own sum for each row of the top it reaches
+  std::vector<int> target;   ///< as `row`: where contributions of the panel to that row are summed, its
+                             ///< position or, from a subtree to the top, nb + index in `top_row`
+  std::vector<int> top_row;  ///< positions; each subtree has its own sum for every row of the top it reaches
   int most_rows = 0;         ///< of a panel
 
   int num_panels() const { return static_cast<int>(first_column.size()) - 1; }
