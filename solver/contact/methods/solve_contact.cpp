@@ -17,7 +17,7 @@ namespace {
 /// more digits to rounding than the tolerance permits.
 constexpr double kProximalShare = 1e-4;
 constexpr double kLargestRoundingResidual = 1e-2;  // a larger momentum residual is not due to rounding
-constexpr int kRescueOuterIterations = 80;  // domes that slide in steps of 10 s on 1e-14 m/N take up to 60
+constexpr int kRescueOuterIterations = 80;  // a dome that slides on 1e-14 m/N takes more than 40 at times
 
 /// Blocks at rest under the impulses of the guess, if their residuals are those of a solution. Many impulses
 /// of rigid contacts balance the same loads, so that any others would be no better. The momentum residual
