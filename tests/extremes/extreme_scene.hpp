@@ -43,6 +43,8 @@ struct TrueError {
   double wrench = std::numeric_limits<double>::quiet_NaN();
   /// A statement of the summary that these forces refute, with the numbers; "" if there is none.
   std::string refuted = {};
+  /// False if the reference itself found no forces.
+  bool has_reference = true;
 };
 
 /// One row of the table of extremes.

@@ -120,9 +120,10 @@ constexpr char kSeparator = '\x1f';
 
 std::string to_text(const ExtremeResult& r) {
   const char s = kSeparator;
-  return fmt::format("{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}", static_cast<int>(r.ending), s,
+  return fmt::format("{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}{}", static_cast<int>(r.ending), s,
                      static_cast<int>(r.verdict), s, r.reason, s, r.message, s, r.stated, s, r.error.largest,
-                     s, r.error.wrench, s, r.error.refuted, s, r.asked, s, r.iterations, s, r.seconds);
+                     s, r.error.wrench, s, r.error.refuted, s, r.asked, s, r.iterations, s, r.seconds, s,
+                     static_cast<int>(r.error.has_reference));
 }
 
 ExtremeResult from_text(const std::string& text) {
@@ -133,14 +134,14 @@ ExtremeResult from_text(const std::string& text) {
     else
       fields.back() += c;
   }
-  CUPOLA_ASSERT(fields.size() == 11);
+  CUPOLA_ASSERT(fields.size() == 12);
   ExtremeResult r;
   r.ending = static_cast<Ending>(std::stoi(fields[0]));
   r.verdict = static_cast<Verdict>(std::stoi(fields[1]));
   r.reason = fields[2];
   r.message = fields[3];
   r.stated = fields[4];
-  r.error = {std::stod(fields[5]), std::stod(fields[6]), fields[7]};
+  r.error = {std::stod(fields[5]), std::stod(fields[6]), fields[7], fields[11] == "1"};
   r.asked = std::stod(fields[8]);
   r.iterations = std::stoi(fields[9]);
   r.seconds = std::stod(fields[10]);

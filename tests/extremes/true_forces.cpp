@@ -161,6 +161,7 @@ TrueError equals_exact_statics(const Scene& scene, const Summary& summary, const
     return error;
   }
   if (!exact.found || exact.forces.size() != frame.contacts.force.size()) {
+    error.has_reference = false;
     error.refuted = fmt::format("the reference found no equilibrium: residual {:.1e} after {} iterations",
                                 exact.residual, exact.iterations);
     return error;

@@ -80,5 +80,22 @@ TEST(GroinVaultRuns, TheSameVaultImportedHasTheSameVerdicts) {
               2e-4 * drawn_limit.critical->value);
 }
 
+// Associated friction holds it by dilatancy, up to 1.03 times this acceleration; under Coulomb's law it
+// slides. That took 28,000 iterations when the search from the associated equilibrium went on although this
+// equilibrium carried nothing.
+TEST(GroinVaultRuns, SlidesUnderCoulombsLawAfterFewIterations) {
+  const ProgramFolder folder;
+  const std::string vault =
+      " --set geometry.bond.rings=7 --set geometry.bond.blocks_per_ring=3 --set "
+      "geometry.surface.thickness=0.5";
+  ASSERT_EQ(folder.run("cupola-generate " + kCase + " --output a.vtu" + vault).code, 0);
+  const std::string pushed = vault + " --set joints.friction=0.277 --set loads.gravity=[4.39,0,-9.81]";
+  const Summary associated = solve(folder, kCase, pushed),
+                coulomb = solve(folder, kCase, pushed + " --set analysis.friction_law=coulomb");
+  EXPECT_EQ(associated.status, Status::stable) << associated.message;
+  EXPECT_EQ(coulomb.status, Status::moving_unproven) << coulomb.message;
+  EXPECT_LT(coulomb.iterations, 2000);
+}
+
 }  // namespace
 }  // namespace cupola::groin_vault_test

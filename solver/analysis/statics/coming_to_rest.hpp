@@ -12,8 +12,9 @@ namespace cupola {
 /// control each iteration also finds its time (length_control.hpp).
 class ComingToRest : public ProximalPoint {
  public:
-  /// How far the equilibrium may be. Nearby: the first step is long.
-  enum class Start { afar, nearby };
+  /// How far the equilibrium may be. Nearby: the first step is long. Associated: it starts from the equilibrium
+  /// of the associated law, and ends where that does not help.
+  enum class Start { afar, nearby, associated };
   ComingToRest(const Model& model, const State& start, const ContactSet& contacts,
                const ContactMemories& memories, const StaticOptions& options, Start from = Start::afar);
 
@@ -34,7 +35,7 @@ class ComingToRest : public ProximalPoint {
   void adapt(double contraction) override;
   std::optional<StaticSolution> judge_motion(double contraction) override;
   bool accepts(const StaticSolution& trial) const override;
-  StaticSolution give_up() override;
+  StaticSolution give_up(int num_solves) override;
 
   double control_share() const;
   void seek_time(double tolerance, const std::function<void()>& attempt_now);

@@ -155,14 +155,14 @@ StaticSolution ProximalPoint::finish_moving(const std::string& way) {
                             acceleration_text(), way));
 }
 
-StaticSolution ProximalPoint::give_up() {
+StaticSolution ProximalPoint::give_up(int num_solves) {
   return finish(StaticOutcome::unconverged,
                 fmt::format("equilibrium residual {:.2e} > tolerance {:.2e} after {}", best_.balance.residual,
-                            options_.tolerance, counted(pace_.max_solves, "solve")));
+                            options_.tolerance, counted(num_solves, "solve")));
 }
 
 StaticSolution ProximalPoint::run() {
-  for (int k = 0; k < pace_.max_solves; ++k) {
+  for (int k = 1; k <= pace_.max_solves; ++k) {
     iterate();
     options_.log(fmt::format(
         "static  h {:9.3e} s  iterations {:3d}  momentum {:9.2e}  law {:9.2e}  equilibrium {:9.2e}  "
@@ -175,11 +175,12 @@ StaticSolution ProximalPoint::run() {
     }
     if (accepts(trial_)) return finish_accepted();
     const double contraction = advance();
+    if (residual_ > pace_.largest_residual) return give_up(k);
     if (contraction > kNoProgress && trial_.speed_ratio > kAtRest && !options_.control)
       if (std::optional<StaticSolution> answer = judge_motion(contraction)) return std::move(*answer);
     adapt(contraction);
   }
-  return give_up();
+  return give_up(pace_.max_solves);
 }
 
 }  // namespace cupola

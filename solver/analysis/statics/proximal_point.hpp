@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -30,14 +31,17 @@ class ProximalPoint {
   ProximalPoint& operator=(const ProximalPoint&) = delete;
   StaticSolution run();
 
- protected:
   /// How accurate a contact solve must be while the residual is large: the smaller of `coarse` and `share` of
   /// the residual, as an inexact proximal-point method requires. The first step is
   /// `first_step` times that of first_static_step(), as far as the compliance permits.
   struct Pace {
     int max_solves;
     double coarse, share, first_step = 1.0;
+    /// The search ends at an iterate with a larger residual. Relative to a block's weight.
+    double largest_residual = std::numeric_limits<double>::infinity();
   };
+
+ protected:
   ProximalPoint(const Model& model, const State& start, const ContactSet& contacts,
                 const ContactMemories& memories, const StaticOptions& options, const Pace& pace);
 
@@ -53,7 +57,7 @@ class ProximalPoint {
   /// The last iterate becomes the start of the next one. Returns by how much it reduced the residual.
   virtual double advance();
   virtual bool accepts(const StaticSolution& trial) const;
-  virtual StaticSolution give_up();
+  virtual StaticSolution give_up(int num_solves);
 
   void set_step(double h);
   ContactSolverOptions solve_options() const;

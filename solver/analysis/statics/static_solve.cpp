@@ -165,7 +165,7 @@ StaticSolution solve_from_afar(const Model& model, const State& start, const Con
     int iterations = first.iterations;
     const bool stands = first.outcome == StaticOutcome::equilibrium;
     const auto from_associated = [&] {
-      ComingToRest again(model, start, contacts, memories, options);
+      ComingToRest again(model, start, contacts, memories, options, ComingToRest::Start::associated);
       again.start_from(first);
       return again.run();
     };
@@ -182,8 +182,9 @@ StaticSolution solve_from_afar(const Model& model, const State& start, const Con
         if (first.outcome == StaticOutcome::moving) return under_any_law(std::move(first));
       }
       if (stands && !options.follow_from_start && shows_nothing(model, solution, first)) {
-        if (StaticSolution second = from_associated(); second.outcome == StaticOutcome::equilibrium)
-          solution = std::move(second);
+        StaticSolution second = from_associated();
+        if (second.outcome == StaticOutcome::equilibrium) std::swap(solution, second);
+        iterations += second.iterations;
       }
     }
     first = {};
