@@ -149,7 +149,7 @@ struct LoadPath {
     std::optional<BlockRef> relative_to;       ///< block from which the displacement counts; none: the world
     Eigen::Vector3d direction{1.0, 0.0, 0.0};  ///< of its displacement and force; of any length > 0
   };
-  std::optional<Control> control;  ///< given if the analysis is a path
+  std::optional<Control> control;  ///< none: chosen by what moves or loads most (path_control.hpp)
 };
 
 /// Accuracy requested by name, or as an error of the joint wrenches, instead of a tolerance.

@@ -93,7 +93,9 @@ void declare_path(Section& s, LoadPath& path) {
       "geometry in which each equilibrium holds: that at the start of its step, or that at its end, found "
       "by further solves");
   s.rule(path.geometry == PathGeometry::start || !path.length, "geometry", "end excludes length");
-  s.optional_section("control", path.control, "block whose displacement and force path.csv tabulates",
+  s.optional_section("control", path.control,
+                     "block whose displacement and force path.csv tabulates; none: the support that moves "
+                     "farthest or else the block whose load changes most",
                      declare_control);
 }
 
@@ -246,8 +248,6 @@ void declare_analysis(Section& s, Analysis& analysis) {
       "block requires friction_law: coulomb. Under the other laws a joint that slides opens, which jams an "
       "open course between uprights at any friction; staged.allow_associated: true admits them");
   s.section("path", analysis.path, "path: steps, and the block to tabulate", declare_path);
-  s.rule(analysis.type != AnalysisType::path || analysis.path.control, "path",
-         "must name the block to tabulate: {control: {block: 3, direction: [1, 0, 0]}}");
   s.rule(analysis.type != AnalysisType::range || !analysis.range.quantities.empty(), "range",
          "must list at least one quantity: {quantities: [thrust]}");
   s.rule(analysis.type == AnalysisType::static_ || analysis.type == AnalysisType::range ||

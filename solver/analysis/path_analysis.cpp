@@ -11,6 +11,7 @@
 #include "assembly/files/summary_file.hpp"
 #include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/path_control.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/record/record_archive.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
@@ -99,7 +100,6 @@ class PathRun {
   std::optional<Summary> run();
 
  private:
-  int checked_block(int block) const;
   double displacement() const;
   double parameter() const {
     return options_.length ? displacement() - progress_.first_displacement : path_.value();
@@ -129,21 +129,9 @@ PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSink
     : options_(scene.analysis.path),
       sinks_(sinks),
       model_(make_model(scene, assembly)),
-      path_(model_, detection_options(scene), static_options(scene.analysis), scene.analysis.path.geometry) {
-  const LoadPath::Control& control = *options_.control;
-  control_.block = checked_block(control.block);
-  if (control.relative_to) control_.relative_to = checked_block(*control.relative_to);
-  if (control_.relative_to == control_.block)
-    throw InputError(
-        fmt::format("analysis.path.control.relative_to = {}: must differ from block", control_.block));
-  control_.direction = control.direction.normalized();
-  control_.latest = options_.end;
+      path_(model_, detection_options(scene), static_options(scene.analysis), scene.analysis.path.geometry),
+      control_(path_control(scene.analysis.path, model_)) {
   progress_.time_step = options_.end / options_.steps;
-}
-
-int PathRun::checked_block(int block) const {
-  check_block_exists(*model_.assembly, block, "analysis.path.control");
-  return block;
 }
 
 /// Of the control along its direction, m.
@@ -265,10 +253,13 @@ void PathRun::judge(double started) {
   summary_.solve_time_seconds = wall_seconds() - started;
   progress_.worst.summarize(&summary_);
   summary_.accuracy.worst_over_run = progress_.worst_balance;
+  const Vec3 along = (1e3 * control_.direction).array().round() / 1e3 + 0.0;  // no -0
+  const std::string chosen =
+      options_.control ? "" : fmt::format(", chosen, along ({:g}, {:g}, {:g})", along[0], along[1], along[2]);
   const std::string largest =
-      fmt::format("largest force {:.6g} N at {:.6g} {} (block {})", progress_.largest_force,
+      fmt::format("largest force {:.6g} N at {:.6g} {} (block {}{})", progress_.largest_force,
                   options_.length ? progress_.displacement_of_largest : progress_.time_of_largest,
-                  options_.length ? "m" : "s", block_label(*model_.assembly, control_.block));
+                  options_.length ? "m" : "s", block_label(*model_.assembly, control_.block), chosen);
   const std::string reached =
       options_.length ? fmt::format("{:.6g} m", displacement()) : fmt::format("{:.6g} s", path_.value());
   if (stands(last_status_)) {

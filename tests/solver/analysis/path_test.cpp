@@ -74,6 +74,39 @@ TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
   }
 }
 
+// A path whose case names no control gives the table of one that names the support that moves farthest, or the
+// block whose load grows most.
+TEST(Path, ChoosesItsControl) {
+  const Assembly assembly = couplet();
+  Case moved = couplet_case(4);
+  for (const double x : {1e-5, 3e-5})
+    moved.supports.moves.push_back({.region = {.blocks = {BlockRef{x > 2e-5 ? 3 : 0}}},
+                                    .displacement = {0, x, 0},
+                                    .time = RampInTime{}});
+  Case loaded = couplet_case(4);
+  loaded.loads.forces.push_back({BlockRef{1}, {}, Vec3(0, 300, 400), RampInTime{}});
+  loaded.loads.forces.push_back({BlockRef{2}, {}, Vec3(0, 0, -600), {}});
+  struct Choice {
+    const char* what;
+    Case scene;
+    LoadPath::Control control;
+  };
+  for (Choice choice : {Choice{"support", moved, {BlockRef{3}, {}, Vec3::UnitY()}},
+                        Choice{"load", loaded, {BlockRef{1}, {}, Vec3(0, 3, 4)}}}) {
+    choice.scene.analysis.path.control = choice.control;
+    const PathResult named = run(choice.scene, assembly);
+    choice.scene.analysis.path.control.reset();
+    const PathResult chosen = run(choice.scene, assembly);
+    EXPECT_EQ(chosen.rows, named.rows) << choice.what;
+    EXPECT_EQ(chosen.rows.size(), 5u) << choice.what << chosen.summary.message;
+    EXPECT_NE(chosen.summary.message.find("chosen, along (0, "), std::string::npos) << chosen.summary.message;
+    EXPECT_EQ(named.summary.message.find("chosen"), std::string::npos) << named.summary.message;
+  }
+  Case still = couplet_case(4);
+  still.analysis.path.control.reset();
+  EXPECT_THROW(run(still, assembly), InputError);
+}
+
 // A joint opened to half of its damage, closed again and opened again: it closes without force until its
 // faces touch, pushes elastically, and pulls again from where it stopped, with half of its strength.
 TEST(Path, ACrackClosesAndOpensAgain) {
