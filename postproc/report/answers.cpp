@@ -125,7 +125,8 @@ KeyNumber margin_answer(const Evaluation& e) {
             first_clause(e.summary.message)};
   if (!at_rest(e))
     return {"Margin", moves(e.summary.status) || e.summary.status == Status::collapsed ? "none" : "unknown",
-            "no equilibrium was found; to compute what it lacks: " + command_for_margins(e)};
+            lack_of_equilibrium(e.summary, e.last.frame.role) +
+                "; to compute what it lacks: " + command_for_margins(e)};
   return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }
 
@@ -169,7 +170,7 @@ std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& 
     out.push_back(line("thrust", *thrust));
   else
     out.push_back(fmt::format("  {:<9} none: {}", "thrust",
-                              !at_rest(e)                   ? "no equilibrium was found"
+                              !at_rest(e) ? lack_of_equilibrium(e.summary, e.last.frame.role)
                               : is_stage(e.last.frame.role) ? "the supports of the course laid last feel none"
                                                             : "the model has no axis from which to take it"));
   const std::vector<std::string> warnings = notices(e);

@@ -38,6 +38,8 @@ std::vector<std::string> finding_sentences(const Evaluation& evaluation);
 
 /// The verdict and the solution quality in words, each with its numbers.
 std::string verdict_text(const Summary& summary, FrameRole shown);  ///< `shown`: of the frame evaluated
+/// "no equilibrium exists" if that is proven, otherwise "no equilibrium was found". A motion proves nothing.
+std::string lack_of_equilibrium(const Summary& summary, FrameRole shown);
 std::vector<std::string> quality_sentences(const Evaluation& evaluation);
 
 /// True if the two ends of the bracket of a critical value differ in the digits that the report prints.

@@ -125,6 +125,11 @@ bool shows_bracket(const CriticalValue& critical) {
   return fmt::format("{:.5g}", critical.stable) != fmt::format("{:.5g}", critical.moving);
 }
 
+std::string lack_of_equilibrium(const Summary& s, FrameRole shown) {
+  return s.status == Status::moving && shown != FrameRole::step ? "no equilibrium exists"
+                                                                : "no equilibrium was found";
+}
+
 std::string verdict_text(const Summary& s, FrameRole shown) {
   const bool stages = is_stage(shown), limit = s.critical && !stages;
   if (limit && s.critical->parameter == "peak_stress")
@@ -157,8 +162,11 @@ std::string verdict_text(const Summary& s, FrameRole shown) {
       return stages ? "Every stage of the construction stands." : "The structure is at rest.";
     case Status::moving:
     case Status::moving_unproven:
-      return stages ? "Not every stage of the construction stands."
-                    : "The structure is moving: no equilibrium was found.";
+      if (stages) return "Not every stage of the construction stands.";
+      if (shown == FrameRole::step) return "The structure is moving.";
+      return fmt::format("{}{}.",
+                         shown == FrameRole::path ? "Beyond the end of the path " : "Under these loads ",
+                         lack_of_equilibrium(s, shown));
     case Status::collapsed:
       return "The structure has collapsed.";
     case Status::bracketed:

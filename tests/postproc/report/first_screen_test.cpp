@@ -343,5 +343,16 @@ TEST(FirstScreen, LeadsWithThePressureOverTheStrength) {
       << numbers[1].detail;
 }
 
+TEST(FirstScreen, SaysThatNoEquilibriumExistsOnlyIfThatIsProven) {
+  Summary summary;
+  for (const auto& [status, lack] : {std::pair{Status::moving, "no equilibrium exists."},
+                                     std::pair{Status::moving_unproven, "no equilibrium was found."}}) {
+    summary.status = status;
+    EXPECT_EQ(verdict_text(summary, FrameRole::mechanism), std::string("Under these loads ") + lack);
+    EXPECT_EQ(verdict_text(summary, FrameRole::path), std::string("Beyond the end of the path ") + lack);
+    EXPECT_EQ(verdict_text(summary, FrameRole::step), "The structure is moving.") << "no proof in a motion";
+  }
+}
+
 }  // namespace
 }  // namespace cupola::first_screen_test
