@@ -1,6 +1,7 @@
 #include "assembly/case/case_node.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 
@@ -23,19 +24,25 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
+/// Keys are words, but for the letters of a drawn bond, which can be any.
+std::string key_text(const std::string& key) {
+  const auto of_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
+  return std::ranges::all_of(key, of_word) ? key : in_quotes(key);
+}
+
 std::string flow(const CaseNode& node) {
   const bool is_list = node.kind == CaseNode::Kind::list;
   if (!is_list && node.kind != CaseNode::Kind::map) return node.quoted ? in_quotes(node.text) : node.text;
   std::string out;
   for (const CaseNode& item : node.items) out += (out.empty() ? "" : ", ") + flow(item);
   for (const auto& [key, where, value] : node.entries)
-    out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", key, flow(value));
+    out += fmt::format("{}{}: {}", out.empty() ? "" : ", ", key_text(key), flow(value));
   return is_list ? fmt::format("[{}]", out) : fmt::format("{{{}}}", out);
 }
 
 void write_block(const CaseNode& map, int indent, std::string* out) {
   for (const auto& [key, where, value] : map.entries) {
-    *out += fmt::format("{:{}}{}:", "", indent, key);
+    *out += fmt::format("{:{}}{}:", "", indent, key_text(key));
     if (value.kind == CaseNode::Kind::map && !value.entries.empty()) {
       *out += '\n';
       write_block(value, indent + 2, out);

@@ -50,6 +50,23 @@ TEST(ReadCase, ReadsEveryValueOfTheFile) {
   EXPECT_EQ(c.postproc.sections, (std::vector<double>{14.5, 22.5}));
 }
 
+// The letters of a drawing are keys of `kinds`, and YAML has a meaning for many of them.
+TEST(ReadCase, EveryLetterOfADrawingReadsBack) {
+  const ScratchFolder scratch;
+  for (char letter = '!'; letter <= '~'; ++letter) {
+    if (letter == '.') continue;  // no block
+    const std::string text = letter == '\'' ? "''" : std::string(1, letter);
+    const Case c = read_case(scratch.write(
+        "drawn.yaml",
+        "geometry:\n  surface: {type: wall}\n  bond: {type: drawn, letter_length: 1, rows: ['z" + text +
+            "'], kinds: {'" + text + "': flat}}\njoints: {compliance: {per: area}}\n"));
+    const Case again = read_case(scratch.write("again.yaml", c.effective_yaml));
+    EXPECT_EQ(again.effective_yaml, c.effective_yaml) << letter;
+    EXPECT_EQ(std::get<DrawnBond>(again.geometry.bond).kinds,
+              (std::vector{std::pair{letter, DrawnBond::LetterKind::flat}}));
+  }
+}
+
 // A case whose title names a friction does not keep it silently when --set changes the friction.
 TEST(ReadCase, TitleNamesWhatSetChanges) {
   const ScratchFolder scratch;
