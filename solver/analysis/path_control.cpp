@@ -63,9 +63,8 @@ LengthControl path_control(const LoadPath& options, const Model& model) {
     if (largest.block < 0) largest = largest_change_of_load(model, options.end);
     if (largest.block < 0)
       throw InputError(
-          "analysis.path.control is missing, and neither supports nor loads change with time, which would "
-          "choose "
-          "it: name a block, for example {block: 3, direction: [1, 0, 0]}");
+          "analysis.path.control is missing, and neither supports nor loads change with time, from which it "
+          "would follow: name a block, for example {block: 3, direction: [1, 0, 0]}");
     control.block = largest.block;
     control.direction = largest.vector.normalized();
     return control;

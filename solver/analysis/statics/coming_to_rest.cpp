@@ -92,7 +92,7 @@ ProximalPoint::Pace pace_from(ComingToRest::Start from, double tolerance) {
   // their weight.
   constexpr double kLonger = 30.0;
   // Of the weight of a block. Of 109 random towers that came to rest so, the first iterate of one left 0.02, of
-  // the others less than 1e-4; of vaults that slide it leaves 0.1 to 1.
+  // the others less than 1e-4; of vaults that slide it mostly leaves 0.1 to 1.
   constexpr double kFar = 0.1;
   ProximalPoint::Pace pace{40, 1e-4, 1e-3};
   if (from == ComingToRest::Start::nearby) {
