@@ -1,6 +1,7 @@
 #include "assembly/base/process.hpp"
 
 #include <chrono>
+#include <new>
 
 #include <sys/resource.h>
 
@@ -10,6 +11,10 @@ long long peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return 1024LL * usage.ru_maxrss;
+}
+
+void require_memory(std::size_t bytes) {
+  ::operator delete(::operator new(bytes));
 }
 
 double wall_seconds() {

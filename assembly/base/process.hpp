@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace cupola {
@@ -9,6 +10,9 @@ std::string program_version();
 
 /// Peak resident memory of this process so far, bytes.
 long long peak_memory_bytes();
+
+/// Throws std::bad_alloc if so many bytes cannot be allocated now: for libraries that crash where memory ends.
+void require_memory(std::size_t bytes);
 
 /// Time of a monotonic clock, s.
 double wall_seconds();

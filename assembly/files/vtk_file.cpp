@@ -38,6 +38,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/base/process.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/hash.hpp"
 #include "assembly/files/mesh_file.hpp"
@@ -418,9 +419,7 @@ void write_mesh(const std::string& path, const Mesh& mesh) {
 
 Mesh read_mesh(const std::string& path) {
   check_bytes(path);
-  // VTK's parser crashes where memory ends. With so much left, what fails is a larger array, which throws.
-  constexpr size_t kOfParser = 4 << 20;
-  ::operator delete(::operator new(kOfParser));  // throws std::bad_alloc
+  require_memory(4 << 20);  // VTK's parser crashes without; larger arrays throw
   return is_polygonal(path) ? read_data<vtkXMLPolyDataReader>(path)
                             : read_data<vtkXMLUnstructuredGridReader>(path);
 }

@@ -12,7 +12,8 @@ just below and above that acceleration must agree with what limit analysis prove
 - the limit under Coulomb's law, found by bisection, is no larger.
 
 `unconverged` and `moving_unproven` contradict nothing; they are counted. Prints every contradiction with its case, every
-run longer than SLOW seconds, and how often each analysis ended how. Exit code 1 if there is a contradiction.
+run longer than SLOW seconds, and how often each analysis ended how. Exit code 1 if there is a contradiction, or if a run
+leaves no summary.
 """
 import argparse
 import collections
@@ -114,7 +115,8 @@ def try_vault(bin_folder, seed):
     with tempfile.TemporaryDirectory() as folder:
         vault = Vault(bin_folder, seed, pathlib.Path(folder))
         found = [f"seed {seed}: CONTRADICTION: {text}\n  {json.dumps(vault.case)}" for text in vault.contradictions()]
-        return vault.endings, vault.said + found, len(found)
+        failed = sum(count for (_, status), count in vault.endings.items() if status == "failed")
+        return vault.endings, vault.said + found, len(found) + failed
 
 
 def main():
@@ -131,7 +133,7 @@ def main():
             endings, wrong = endings + more, wrong + found
             for line in said: print(line, flush=True)
     for (what, status), count in sorted(endings.items()): print(f"{what}: {status} {count}")
-    print(f"{wrong} contradictions")
+    print(f"{wrong} contradictions and failures")
     return 1 if wrong else 0
 
 
