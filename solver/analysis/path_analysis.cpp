@@ -80,14 +80,23 @@ double widest_gap(const ContactTable& contacts) {
   return widest;
 }
 
-/// The force that a support exerts on the blocks, or the loads on all blocks if the control block is free.
-Vec3 control_force(const Model& model, const ContactSet& contacts, const StaticSolution& solution,
+/// The force that a support exerts on the blocks by contacts and ties, or the loads on all blocks if the
+/// control block is free.
+Vec3 control_force(const Model& model, const EquilibriumPath& path, const StaticSolution& solution,
                    int block) {
   if (model.free_index[block] != ContactProblem::kFixed) return solution.balance.applied_load;
   Vec3 force = Vec3::Zero();
-  for (size_t i = 0; i < contacts.points.size(); ++i) {
-    if (contacts.points[i].block_a == block) force += solution.forces.contacts[i];
-    if (contacts.points[i].block_b == block) force -= solution.forces.contacts[i];
+  const auto add = [&](int a, int b, const Vec3& on_b) {
+    if (a == block) force += on_b;
+    if (b == block) force -= on_b;
+  };
+  for (size_t i = 0; i < path.contacts().points.size(); ++i) {
+    const Contact& contact = path.contacts().points[i];
+    add(contact.block_a, contact.block_b, solution.forces.contacts[i]);
+  }
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const Tie& tie = model.ties[k];
+    add(tie.block_a, tie.block_b, solution.forces.ties[k] * tie_geometry(tie, path.start().poses).normal);
   }
   return force;
 }
@@ -203,7 +212,7 @@ void PathRun::record(const StaticSolution& solution) {
 /// The row of path.csv.
 void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
   const double force =
-      control_force(model_, path_.contacts(), solution, control_.block).dot(control_.direction);
+      control_force(model_, path_, solution, control_.block).dot(control_.direction);
   if (std::abs(force) > std::abs(progress_.largest_force)) {
     progress_.largest_force = force;
     progress_.time_of_largest = path_.value();

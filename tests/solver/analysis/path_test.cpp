@@ -107,6 +107,29 @@ TEST(Path, ChoosesItsControl) {
   EXPECT_THROW(run(still, assembly), InputError);
 }
 
+// What the floor bears by the joint and by a rod to the upper block, and what the support above bears, balance
+// each other and the weight.
+TEST(Path, TheForceOfASupportCountsItsTies) {
+  Case scene = couplet_case(4);
+  scene.supports.moves.push_back(
+      {.region = {.blocks = {BlockRef{3}}}, .displacement = {0, 0, 1e-5}, .time = RampInTime{}});
+  PairTie rod;
+  rod.block_a = BlockRef{0};
+  rod.block_b = BlockRef{2};
+  rod.point_a = {1, 0, 0};
+  rod.point_b = {0.5, 0, 0.3};
+  rod.stiffness = 1e8;
+  scene.ties.pairs = {rod};
+  const auto largest = [&](int support) {
+    scene.analysis.path.control = LoadPath::Control{BlockRef{support}, {}, Vec3::UnitZ()};
+    const PathResult path = run(scene, couplet());
+    return path.rows.back()[2];
+  };
+  const double floor = largest(0), above = largest(3);
+  EXPECT_LT(floor, 0.0) << "it pulls";
+  EXPECT_NEAR(floor + above, 2.0 * kWeight, 1e-3 * kWeight) << floor << " " << above;
+}
+
 // A joint opened to half of its damage, closed again and opened again: it closes without force until its
 // faces touch, pushes elastically, and pulls again from where it stopped, with half of its strength.
 TEST(Path, ACrackClosesAndOpensAgain) {
