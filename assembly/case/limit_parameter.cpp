@@ -74,4 +74,34 @@ Case case_at(const Case& scene, double value) {
   return at;
 }
 
+std::optional<double> own_value(const Case& scene) {
+  using enum LimitSearch::Parameter;
+  const LimitSearch& limit = scene.analysis.limit;
+  const auto if_in_bracket = [&](double own) {
+    return limit.low <= own && own <= limit.high ? std::optional(own) : std::nullopt;
+  };
+  switch (limit.parameter) {
+    case friction: {
+      const auto [least, greatest] = scene.joints.friction_range();
+      return least == greatest ? std::optional(least) : std::nullopt;
+    }
+    case joint_extent:
+      return 1.0;
+    case load:
+      return if_in_bracket(1.0);
+    case tilt:
+    case acceleration:
+    case spread:
+      return if_in_bracket(0.0);
+    case lantern: {
+      const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});
+      return lantern.weight + lantern.mass > 0.0 ? std::nullopt : if_in_bracket(lantern.weight_fraction);
+    }
+    case thickness:
+    case peak_stress:
+      break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace cupola

@@ -13,6 +13,17 @@ bool Joints::have_strength() const {
          std::ranges::any_of(rings, [&](const RingJoints& group) { return has(group.law); });
 }
 
+std::pair<double, double> Joints::friction_range() const {
+  std::pair range{friction, friction};
+  const auto include = [&range](const JointLawChange& law) {
+    range.first = std::min(range.first, law.friction.value_or(range.first));
+    range.second = std::max(range.second, law.friction.value_or(range.second));
+  };
+  for (const auto& kind : kinds()) include(*kind.second);
+  for (const RingJoints& group : rings) include(group.law);
+  return range;
+}
+
 std::vector<std::pair<const char*, const JointLawChange*>> Joints::kinds() const {
   std::vector<std::pair<const char*, const JointLawChange*>> own;
   const auto add = [&](const char* key, const std::optional<JointLawChange>& law) {

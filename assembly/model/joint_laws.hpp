@@ -115,6 +115,8 @@ struct Joints {
 
   /// True if some joints have a tension, a cohesion or a compressive strength.
   bool have_strength() const;
+  /// The least and the greatest friction that the case gives to any joints.
+  std::pair<double, double> friction_range() const;
 };
 
 }  // namespace cupola

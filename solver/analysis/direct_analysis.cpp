@@ -51,7 +51,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, doub
     report(trial);
   };
   DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees, degrees);
-  if (!limit.found) return limit;
+  if (!limit.found()) return limit;
   limit.gamma /= std::hypot(1.0, limit.admissible);
   limit.admissible = degrees(limit.admissible);
   limit.moving = degrees(limit.moving);
@@ -146,16 +146,20 @@ void write_nothing_found(const Case& scene, const Assembly& assembly, const Anal
   summarize_frame(frame, own.model, summary);
 }
 
-/// Writes an admissible state under the loads of the case, if there is one: without a limit no value stands
-/// out.
-void write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
+/// Writes an admissible state under the loads of the case: without a limit no value stands out. False if
+/// there is none.
+bool write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
                          Summary* summary) {
   DirectLimit own;
   own.at_admissible = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
   const ConicSolution any = solve_conic(own.at_admissible.problem);
-  if (any.outcome != ConicOutcome::optimal) return write_nothing_found(scene, assembly, sinks, summary);
+  if (any.outcome != ConicOutcome::optimal) {
+    write_nothing_found(scene, assembly, sinks, summary);
+    return false;
+  }
   own.gamma = any.gamma;
   write_ends(own, to_string(scene.analysis.limit.parameter), scene.loads.gravity.norm(), sinks, summary);
+  return true;
 }
 
 /// The critical value and what proves it from both sides.
@@ -179,68 +183,70 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
                      limit.moving < limit.admissible ? "larger" : "smaller");
 }
 
-/// True if the value that the case itself has lies in the bracket.
+/// True if what holds at every value of the bracket holds for the case.
 bool holds_the_case(const Case& scene) {
-  using Parameter = LimitSearch::Parameter;
   const LimitSearch& limit = scene.analysis.limit;
-  double own = 1.0;  // a factor
-  if (limit.parameter == Parameter::friction) own = scene.joints.friction;
-  if (limit.parameter == Parameter::tilt || limit.parameter == Parameter::acceleration) own = 0.0;
-  if (limit.parameter == Parameter::lantern) {  // a share of the weight
-    const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});
-    if (lantern.weight + lantern.mass > 0.0) return false;
-    own = lantern.weight_fraction;
-  }
-  return limit.parameter == Parameter::peak_stress || (limit.low <= own && own <= limit.high);
+  const std::optional<double> own = own_value(scene);
+  return limit.parameter == LimitSearch::Parameter::peak_stress ||
+         (own && limit.low <= *own && *own <= limit.high);
+}
+
+/// Without a critical value: what the search shows of the case itself, if anything.
+void summarize_not_found(const Case& scene, const Assembly& assembly, const DirectLimit& limit,
+                         const AnalysisSinks& sinks, Summary* summary) {
+  const std::string name = to_string(scene.analysis.limit.parameter);
+  const bool state = limit.gamma.size() > 0;
+  summary->message = name + ": " + limit.message;
+  bool decides = limit.ending == DirectLimit::Ending::throughout && holds_the_case(scene);
+  if (limit.ending == DirectLimit::Ending::unlimited)
+    decides = write_state_of_case(scene, assembly, sinks, summary);
+  else if (state)
+    write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
+  else if (limit.mechanism.size() > 0)
+    write_motion(limit, name, sinks, summary);
+  else
+    write_nothing_found(scene, assembly, sinks, summary);
+  // Recomputed from points and world forces: what the solver calls admissible must balance.
+  const bool balanced = summary->equilibrium_residual.value_or(0.0) <= kOutcomeTolerance;
+  if (decides && (!state || balanced)) summary->status = state ? Status::stable : Status::moving;
+}
+
+void summarize_found(const Case& scene, const DirectLimit& limit, const AnalysisSinks& sinks,
+                     Summary* summary) {
+  const std::string name = to_string(scene.analysis.limit.parameter);
+  const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
+  const double width = limit.relative_width(), asked = summary->accuracy.asked;
+  summary->accuracy.reached = summary->accuracy.worst_over_run = width;
+  const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;  // as above
+  if (balanced) summary->status = width <= asked ? Status::stable : Status::bracketed;
+  summary->critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
+  summary->message = bounds_text(*summary->critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
+  if (width > asked) summary->message += missed_width(width, asked);
 }
 
 }  // namespace
 
 std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assembly,
                                         const AnalysisSinks& sinks) {
-  const std::string name = to_string(scene.analysis.limit.parameter);
-  const double started = wall_seconds(), asked = bracket_width(scene.analysis);
+  const double started = wall_seconds();
   sinks.history(csv_header(kDirectColumns));
   const DirectLimit limit = search(scene, assembly, sinks);
 
   Summary summary;
+  summary.status = Status::unconverged;
   summary.steps = limit.trials;
   summary.iterations = limit.iterations;
-  summary.accuracy = {"critical value", "width of its bracket, relative to the middle", asked};
+  summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
+                      bracket_width(scene.analysis)};
   const bool state = limit.gamma.size() > 0;
   summary.certified_force_error.bounds =
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
   summary.forces_unique = {false,
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
-  if (limit.unlimited)
-    summary.status = Status::stable;
-  else if (limit.throughout && holds_the_case(scene))
-    summary.status = state ? Status::stable : Status::moving;
+  if (limit.found())
+    summarize_found(scene, limit, sinks, &summary);
   else
-    summary.status = Status::unconverged;
-  summary.message = name + ": " + limit.message;
-  if (limit.unlimited)
-    write_state_of_case(scene, assembly, sinks, &summary);
-  else if (!limit.found && limit.gamma.size() > 0)
-    write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
-  else if (!limit.found && limit.mechanism.size() > 0)
-    write_motion(limit, name, sinks, &summary);
-  else if (!limit.found)
-    write_nothing_found(scene, assembly, sinks, &summary);
-  // As below: forces that are shown as admissible must balance.
-  if (stands(summary.status) && summary.equilibrium_residual.value_or(0.0) > kOutcomeTolerance)
-    summary.status = Status::unconverged;
-  if (limit.found) {
-    const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, &summary);
-    const double width = limit.relative_width();
-    summary.accuracy.reached = summary.accuracy.worst_over_run = width;
-    // Recomputed from points and world forces: what the solver calls admissible must balance.
-    const bool balanced = summary.equilibrium_residual.value() <= kOutcomeTolerance;
-    if (balanced) summary.status = width <= asked ? Status::stable : Status::bracketed;
-    summary.critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
-    summary.message = bounds_text(*summary.critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
-    if (width > asked) summary.message += missed_width(width, asked);
-  }
+    summarize_not_found(scene, assembly, limit, sinks, &summary);
   summary.message += gaps_note(limit.at_admissible.contacts, assembly);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;

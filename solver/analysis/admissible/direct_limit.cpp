@@ -11,8 +11,10 @@ double DirectLimit::relative_width() const {
   return size > 0.0 ? std::abs(admissible - moving) / size : std::abs(admissible - moving);
 }
 
-DirectLimit not_found(std::string message) {
+DirectLimit not_found(DirectLimit searched, std::string message) {
   DirectLimit limit;
+  limit.trials = searched.trials;
+  limit.iterations = searched.iterations;
   limit.message = std::move(message);
   return limit;
 }

@@ -22,9 +22,14 @@ struct DirectTrial {
 /// The critical value between a value with an admissible state and one for which a mechanism proves that
 /// there is none.
 struct DirectLimit {
-  bool found = false;
-  bool unlimited = false;   ///< not found because the structure stands at every value in one direction
-  bool throughout = false;  ///< not found because what stands or moves does so at every value of the bracket
+  enum class Ending {
+    undecided,   ///< nothing is shown
+    found,       ///< the bracket of the critical value
+    throughout,  ///< the structure stands, or moves, at every value between the ends of the search
+    unlimited    ///< it stands at every value in one direction
+  };
+  Ending ending = Ending::undecided;
+  bool found() const { return ending == Ending::found; }
   double admissible = 0.0, moving = 0.0;
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads
   /// (motion_proof.hpp). Otherwise none do of up to `resisting_forces` times those found (conic_bounds.hpp).
@@ -55,7 +60,7 @@ DirectLimit limit_of_loads(
 /// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need
 /// (pull_solve.hpp). Friction and extent of the joints, on which the conditions depend linearly: Newton's
 /// method with the derivative that the mechanism gives, on rough solves, until its next step would not leave
-/// the width required; then a solve on either side of the root; friction below 1e-8 counts as none.
+/// the width required; then a solve on either side of the root; friction below 1e-5 counts as none.
 /// Thickness: the secant method. A bracket that always contains the root safeguards both.
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
                             LimitSearch::Parameter parameter, const ReportTrial& report);
@@ -69,8 +74,8 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
 /// contact points stand for areas.
 DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report);
 
-/// A limit that was not found, and why.
-DirectLimit not_found(std::string message);
+/// The search ends without a limit: why. Keeps the counts of what was solved.
+DirectLimit not_found(DirectLimit searched, std::string message);
 /// Why: the structure stands, or moves, at both ends of the bracket, and what to try.
 std::string at_both_ends(bool admissible, double low, double high);
 

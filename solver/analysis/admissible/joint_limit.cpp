@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kMaxTrials = 60;
 /// Least friction of a search: below it rounding of the geometry decides whether level beds slide.
-constexpr double kNoFriction = 1e-8;
+constexpr double kNoFriction = 1e-5;
 
 /// Solves at values of the parameter, counts and reports them.
 class PullTrials {
@@ -27,6 +27,12 @@ class PullTrials {
     iterations += solve.solution.iterations;
     report_({value, solve.pull <= 0.0, solve.pull, solve.solution.iterations});
     return solve;
+  }
+  DirectLimit counts() const {
+    DirectLimit limit;
+    limit.trials = count;
+    limit.iterations = iterations;
+    return limit;
   }
   ContactProblem joints_at(double value) const { return scene_at_(value).problem.contacts; }
   int count = 0, iterations = 0;
@@ -115,25 +121,26 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   Ends ends = first_ends(low, high, relative_width, parameter, &trials);
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
     if (!end.decided)
-      return not_found(fmt::format(
-          "the solve at {:g}, one end of the bracket, did not converge; move that end", end.value));
+      return not_found(
+          trials.counts(),
+          fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
+                      end.value));
   if (ends.below.admissible() == ends.above.admissible()) {
-    DirectLimit limit = not_found(at_both_ends(ends.below.admissible(), low, high));
-    if (friction && low == kNoFriction && ends.below.admissible()) {
-      limit.unlimited = true;
+    DirectLimit limit = not_found(trials.counts(), at_both_ends(ends.below.admissible(), low, high));
+    const bool needs_none = friction && low == kNoFriction && ends.below.admissible();
+    if (needs_none) {
+      limit.ending = DirectLimit::Ending::unlimited;
       limit.message =
-          fmt::format("no limit: the structure stands without friction (below {:g})", kNoFriction);
+          fmt::format("no limit: the structure stands with a friction of {:g}, as good as none", kNoFriction);
     }
     // Joints with less friction or of less extent bear no force that the others do not.
     const bool end_solved = ends.below.admissible() ? ends.below.value <= low : ends.above.value >= high;
-    if (parameter != LimitSearch::Parameter::thickness && !limit.unlimited && end_solved) {
-      limit.throughout = true;
+    if (parameter != LimitSearch::Parameter::thickness && !needs_none && end_solved) {
+      limit.ending = DirectLimit::Ending::throughout;
       limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
                                   ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
                                   ends.below.admissible() ? "stands" : "moves", low, high);
     }
-    limit.trials = trials.count;
-    limit.iterations = trials.iterations;
     if (ends.below.admissible()) {
       limit.gamma = admissible_state(ends.below);
       limit.at_admissible = std::move(ends.below.scene);
@@ -143,7 +150,6 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
     }
     return limit;
   }
-  DirectLimit limit;
   PullSearch search(std::move(ends.below), std::move(ends.above));
   while (trials.count < kMaxTrials) {
     const double enough = relative_width * std::abs(search.middle());
@@ -156,14 +162,13 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
     else
       search.leave_out(value);
   }
+  DirectLimit limit = trials.counts();
   if (const auto& undecided = search.undecided())
     limit.message = undecided->first == undecided->second
                         ? fmt::format("; the solve at {:.8g} did not decide", undecided->first)
                         : fmt::format("; the solves from {:.8g} to {:.8g} did not decide", undecided->first,
                                       undecided->second);
-  limit.found = true;
-  limit.trials = trials.count;
-  limit.iterations = trials.iterations;
+  limit.ending = DirectLimit::Ending::found;
   limit.admissible = search.admissible.value;
   limit.moving = search.moving.value;
   limit.gamma = admissible_state(search.admissible);

@@ -39,10 +39,11 @@ ConicProblem largest_multiplier(const SceneAt& scene_at, double x, double toward
 
 /// The structure stands at both ends of the bracket: perhaps it does at all values.
 DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high,
-                                const std::function<double(double)>& in_unit) {
+                                const std::function<double(double)>& in_unit, DirectLimit limit) {
   RigidScene scene;
   if (derivative_of_loads(scene_at, high).isZero(0.0)) {
-    DirectLimit limit = not_found(
+    limit = not_found(
+        std::move(limit),
         "the structure stands, and no load depends on the parameter: give the load that it multiplies");
     scene = scene_at(high);
     limit.gamma = solve_conic(scene.problem).gamma;
@@ -54,16 +55,16 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
     if (solve_conic(largest_multiplier(scene_at, end, towards, &scene)).outcome != ConicOutcome::unbounded)
       continue;
     const ConicSolution any = solve_conic(scene.problem);
-    DirectLimit limit = not_found(fmt::format(
-        "no limit: the structure stands at {:g} and at every {} value, because the loads that grow "
-        "with it have an admissible state by themselves",
-        in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
-    limit.unlimited = true;
+    limit = not_found(std::move(limit),
+                      fmt::format("no limit: the structure stands at {:g} and at every {} value, because the "
+                                  "loads that grow with it have an admissible state by themselves",
+                                  in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
+    limit.ending = DirectLimit::Ending::unlimited;
     limit.gamma = any.gamma;
     limit.at_admissible = std::move(scene);
     return limit;
   }
-  DirectLimit limit = not_found(at_both_ends(true, in_unit(low), in_unit(high)));
+  limit = not_found(std::move(limit), at_both_ends(true, in_unit(low), in_unit(high)));
   scene = scene_at(high);
   limit.gamma = solve_conic(scene.problem).gamma;
   limit.at_admissible = std::move(scene);
@@ -73,8 +74,8 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
 /// The structure moves at both ends of the bracket. Where the loads are linear in the parameter, the values
 /// at which it stands form one interval, inside the bracket or outside.
 DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
-                               const std::function<double(double)>& in_unit) {
-  DirectLimit limit = not_found(at_both_ends(false, in_unit(low), in_unit(high)));
+                               const std::function<double(double)>& in_unit, DirectLimit limit) {
+  limit = not_found(std::move(limit), at_both_ends(false, in_unit(low), in_unit(high)));
   RigidScene scene;
   const ConicProblem from_low = largest_multiplier(scene_at, low, 1.0, &scene);
   const VecX missed = scene_at(high).problem.load - (from_low.load + (high - low) * from_low.load_columns);
@@ -85,12 +86,12 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
     const std::string everywhere =
         fmt::format("the structure moves at every value from {:g} to {:g}", in_unit(low), in_unit(high));
     if (greatest.outcome == ConicOutcome::infeasible) {
-      limit.throughout = true;
+      limit.ending = DirectLimit::Ending::throughout;
       limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
     } else if (bounded && end > low && end < high) {
       limit.message += fmt::format("; it stands up to {:g}", in_unit(end));
     } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
-      limit.throughout = true;
+      limit.ending = DirectLimit::Ending::throughout;
       limit.message =
           everywhere + (end < high ? fmt::format("; it stands only below, up to {:g}", in_unit(end))
                                    : std::string("; it stands only above"));
@@ -125,10 +126,11 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   const std::optional<bool> at_low = has_state(scene_at, low, &limit, report);
   const std::optional<bool> at_high = has_state(scene_at, high, &limit, report);
   if (!at_low || !at_high)
-    return not_found(fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
+    return not_found(std::move(limit),
+                     fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
                                  in_unit(at_low ? high : low)));
-  if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high, in_unit);
-  if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit);
+  if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
+  if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   const double towards = *at_low ? 1.0 : -1.0;
   double x = *at_low ? low : high;
   for (int k = 0; k < kMaxIterations; ++k) {
@@ -141,6 +143,7 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
         !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower))
       return not_found(
+          std::move(limit),
           fmt::format("the linearised problem at {:.8g} is {}", in_unit(x), to_string(solution.outcome)));
     limit.admissible = x - towards * bounds.upper;
     limit.moving = x - towards * bounds.lower;
@@ -153,17 +156,20 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     const bool exact = missed.norm() <= 1e-12 * problem.load.norm();
     x = next;
     if (exact || std::abs(step) <= 0.1 * relative_width * std::abs(x)) {
-      limit.found = true;
+      limit.ending = DirectLimit::Ending::found;
       break;
     }
   }
-  if (!limit.found) return not_found(fmt::format("no convergence after {} linearisations", kMaxIterations));
-  limit.at_admissible = scene_at(limit.admissible);
-  limit.at_moving = scene_at(limit.moving);
+  if (!limit.found())
+    return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
   // At the bound itself the loads do no work on the mechanism.
   constexpr double kBeyond = 1e-9;
   const double scale = std::max(std::abs(limit.moving), std::abs(limit.admissible));
-  const RigidScene beyond = scene_at(limit.moving + towards * kBeyond * scale);
+  const double proven = limit.moving + towards * kBeyond * (scale > 0.0 ? scale : high - low);
+  if (limit.moving == limit.admissible) limit.moving = proven;  // which end moves must show
+  limit.at_admissible = scene_at(limit.admissible);
+  limit.at_moving = scene_at(limit.moving);
+  const RigidScene beyond = scene_at(proven);
   limit.motion_proven =
       MotionProof(beyond.problem.contacts, beyond.problem.load).next_to(limit.mechanism).has_value();
   return limit;

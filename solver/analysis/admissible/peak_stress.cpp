@@ -35,13 +35,13 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
   limit.trials = 1;
   limit.iterations = solution.iterations;
   if (solution.outcome == ConicOutcome::infeasible) {
-    limit.throughout = true;
+    limit.ending = DirectLimit::Ending::throughout;
     limit.message = "no admissible state exists, whatever the stress";
     return limit;
   }
   const ConicBounds bounds = conic_bounds(problem, solution);
   report({bounds.upper, true, {}, solution.iterations});
-  limit.found = true;
+  limit.ending = DirectLimit::Ending::found;
   limit.admissible = bounds.upper;
   limit.moving = std::min(bounds.lower, bounds.upper);
   limit.gamma = solution.gamma;

@@ -108,6 +108,35 @@ TEST(DirectLimit, AgreesWithBisection) {
   }
 }
 
+// A limit gives all joints one friction. It says nothing of a case whose beds have less than the others.
+TEST(DirectLimit, IsNoVerdictOnJointsThatDifferInFriction) {
+  const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.25});
+  Case scene = limit_case(Parameter::friction, 0.5, 1.0, 0.7);
+  EXPECT_EQ(own_value(scene), 0.7);
+  EXPECT_EQ(run_limit(scene, arch, {})->status, Status::stable);
+  scene.joints.bed.emplace().friction = 0.01;
+  EXPECT_EQ(own_value(scene), std::nullopt);
+  EXPECT_EQ(run_limit(scene, arch, {})->status, Status::unconverged);
+}
+
+// A pier under an arch that bears twice its load need not bear it once: values outside the bracket are not
+// tried.
+TEST(DirectLimit, SaysNothingOfLoadsOutsideItsBracket) {
+  EXPECT_EQ(own_value(limit_case(Parameter::load, 0.0, 10.0, 0.7)), 1.0);
+  EXPECT_EQ(own_value(limit_case(Parameter::load, 2.0, 10.0, 0.7)), std::nullopt);
+  EXPECT_EQ(own_value(limit_case(Parameter::acceleration, 0.1, 1.0, 0.7)), std::nullopt);
+}
+
+// A bracket at both of whose ends the arch stands: two programmes were solved.
+TEST(DirectLimit, CountsItsTrialsWithoutALimit) {
+  const Case scene = limit_case(Parameter::acceleration, 0.0, 0.01, 0.7);
+  const Summary summary =
+      run_limit(scene, testing::make_arch({.voussoirs = 12, .thickness = 0.25}), {}).value();
+  EXPECT_EQ(summary.status, Status::unconverged);
+  EXPECT_EQ(summary.steps, 2);
+  EXPECT_GT(summary.iterations, 2);
+}
+
 /// Joints with strength, as areas of contact points.
 Case strong_case(Parameter parameter, double low, double high, double friction,
                  const JointStrength& strength) {
@@ -277,14 +306,17 @@ TEST(DirectLimit, WhatNoLoadHoldsMovesAtEveryValue) {
       << beyond.message;
 }
 
-// On level beds rounding of the geometry decides about frictions of 1e-10.
-TEST(DirectLimit, ColumnOnLevelBedsStandsWithoutFriction) {
-  const Summary summary = run_limit(limit_case(Parameter::friction, 0.0, 0.8, 0.7),
-                                    testing::stack_of_cubes(1.0, {1000.0, 1000.0}), {})
-                              .value();
-  EXPECT_EQ(summary.status, Status::stable) << summary.message;
-  EXPECT_FALSE(summary.critical);
-  EXPECT_NE(summary.message.find("stands without friction"), std::string::npos) << summary.message;
+// On level beds rounding of the geometry decides about frictions of 1e-10, and in walls, whose head joints
+// bear nothing, about those of 1e-8.
+TEST(DirectLimit, LevelBedsNeedNoFriction) {
+  for (const Assembly& level : {testing::stack_of_cubes(1.0, {1000.0, 1000.0}),
+                                testing::running_bond_wall({0.5, 0.25, 0.25}, 4, 6)}) {
+    const Summary summary = run_limit(limit_case(Parameter::friction, 0.0, 0.8, 0.7), level, {}).value();
+    EXPECT_EQ(summary.status, Status::stable) << summary.message;
+    EXPECT_FALSE(summary.critical);
+    EXPECT_NE(summary.message.find("stands with a friction of 1e-05, as good as none"), std::string::npos)
+        << summary.message;
+  }
 }
 
 // A force pressing a block down may grow without limit.
