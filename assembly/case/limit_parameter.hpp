@@ -11,8 +11,8 @@ namespace cupola {
 Case case_at(const Case& scene, double value);
 
 /// The value that the case itself has of the limit parameter. None if it has none: joints that differ in
-/// friction, a lantern given in newtons, thickness and peak stress, of which more is not always safer; and none
-/// outside the bracket unless more friction or larger joints bear whatever less bears.
+/// friction, a lantern given in newtons, thickness and peak stress, of which more is not always safer; and
+/// none outside the bracket unless more friction or larger joints bear whatever less bears.
 std::optional<double> own_value(const Case& scene);
 
 }  // namespace cupola

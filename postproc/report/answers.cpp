@@ -64,6 +64,8 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (!decides.empty())
     details.push_back(
         fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
+  if (const std::string direction = direction_of_limit(e.scene.analysis.limit); !direction.empty())
+    details.push_back(direction);
   if (shows_bracket(critical) || critical.value == 0.0)
     details.push_back(fmt::format("stands at {}, moves at {}", value_text(critical.stable, unit, 5),
                                   value_text(critical.moving, unit, 5)));
@@ -103,7 +105,8 @@ VerdictWords verdict_words(const Evaluation& e) {
   if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
-  if (!own) return words_of_status(e.summary.status);
+  if (critical.parameter == "peak_stress") return words_of_status(e.summary.status);
+  if (!own) return {"Limit found", reached(e.summary.status)};  // which says nothing of the case
   const bool upwards = critical.stable < critical.moving;
   const bool proven = e.summary.friction_law == FrictionLaw::associated;
   if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status(Status::stable);

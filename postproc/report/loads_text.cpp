@@ -43,4 +43,15 @@ std::string loads_text(const Evaluation& e) {
                      force_text(total));
 }
 
+std::string direction_of_limit(const LimitSearch& limit) {
+  if (limit.parameter != LimitSearch::Parameter::tilt &&
+      limit.parameter != LimitSearch::Parameter::acceleration)
+    return "";
+  const Vec3 d = limit.direction.normalized();
+  std::string towards = fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x(), d.y(), d.z());
+  for (const int axis : {0, 1, 2})
+    if (std::abs(d[axis]) == 1.0) towards = fmt::format("{}{}", d[axis] > 0.0 ? '+' : '-', "xyz"[axis]);
+  return fmt::format("pulled towards {}; other directions are not computed", towards);
+}
+
 }  // namespace cupola

@@ -10,4 +10,7 @@ namespace cupola {
 /// blocks, at the time shown, and the sum with it; "" if nothing does.
 std::string loads_text(const Evaluation& evaluation);
 
+/// "pulled towards +x; other directions are not computed": of the limit of a tilt or an acceleration; else "".
+std::string direction_of_limit(const LimitSearch& limit);
+
 }  // namespace cupola

@@ -89,6 +89,12 @@ std::string collapsed_text(const Evaluation& e) {
                      length_text(e.scene.analysis.thresholds.displacement));
 }
 
+std::string friction_text(const Joints& joints) {
+  const auto [least, greatest] = joints.friction_range();
+  if (least == greatest) return fmt::format("a coefficient of friction of {:g}", least);
+  return fmt::format("coefficients of friction of {:g} to {:g}", least, greatest);
+}
+
 /// "the shape of the blocks, their weight and loads, a coefficient of friction of 0.4, no crushing (not
 /// checked)". Loads have their sums unless the reason of the verdict gives them.
 std::string assumptions(const Evaluation& e) {
@@ -101,8 +107,7 @@ std::string assumptions(const Evaluation& e) {
   if (!loads.empty())
     given.back() += fmt::format(" (weight of {}, {}{})", force_text(e.summary.weight_N), loads,
                                 critical && !is_stage(e.last.frame.role) ? " at the critical value" : "");
-  if (!critical || critical->parameter != "friction")
-    given.push_back(fmt::format("a coefficient of friction of {:g}", e.scene.joints.friction));
+  if (!critical || critical->parameter != "friction") given.push_back(friction_text(e.scene.joints));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
   if (support_motion(e) > 0.0) given.push_back("the motion of the supports");
   if (!limits_pressure(e.scene.joints)) given.push_back("no crushing (not checked)");
@@ -121,8 +126,11 @@ std::string limit_text(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
   const std::optional<double> factor = factor_of_safety(e.scene, e.summary);
-  if (!own || !factor || critical.parameter == "peak_stress")
-    return verdict_text(e.summary, e.last.frame.role);
+  if (!own || !factor) {
+    const std::string direction = direction_of_limit(e.scene.analysis.limit);
+    return verdict_text(e.summary, e.last.frame.role) +
+           (direction.empty() ? "" : fmt::format(" It is {}.", direction));
+  }
   const bool holds = *factor >= 1.0;
   std::string text;
   if (critical.parameter == "load")

@@ -211,8 +211,7 @@ void PathRun::record(const StaticSolution& solution) {
 
 /// The row of path.csv.
 void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
-  const double force =
-      control_force(model_, path_, solution, control_.block).dot(control_.direction);
+  const double force = control_force(model_, path_, solution, control_.block).dot(control_.direction);
   if (std::abs(force) > std::abs(progress_.largest_force)) {
     progress_.largest_force = force;
     progress_.time_of_largest = path_.value();

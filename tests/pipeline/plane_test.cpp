@@ -32,6 +32,14 @@ Solved solve_case(const std::string& name, std::vector<std::string> settings) {
   return solve(input, generate(input));
 }
 
+// Both bounds of the largest push on this wall are the same number; the ends of its bracket still tell which
+// side stands.
+TEST(Plane, TheEndsOfALimitDiffer) {
+  const CriticalValue critical = solve_case("wall_griffith", {}).summary.critical.value();
+  EXPECT_LT(critical.stable, critical.moving);
+  EXPECT_NEAR(critical.value, 2.0 * 0.11 / 1.5, 1e-5 * critical.value) << "the width of the bracket";
+}
+
 struct Resultant {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  // N, N m about the origin
 };

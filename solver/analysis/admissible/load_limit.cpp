@@ -142,9 +142,8 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     const ConicBounds bounds = bounds_of(problem, 0.1 * relative_width * std::abs(x + step), &solution);
     if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
         !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower))
-      return not_found(
-          std::move(limit),
-          fmt::format("the linearised problem at {:.8g} is {}", in_unit(x), to_string(solution.outcome)));
+      return not_found(std::move(limit), fmt::format("the linearised problem at {:.8g} is {}", in_unit(x),
+                                                     to_string(solution.outcome)));
     limit.admissible = x - towards * bounds.upper;
     limit.moving = x - towards * bounds.lower;
     limit.gamma = solution.gamma;

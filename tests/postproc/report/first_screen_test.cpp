@@ -111,6 +111,34 @@ TEST(FirstScreen, ALimitSaysWhetherTheCaseStandsAndByHowMuch) {
   EXPECT_EQ(margin_answer(e).value, "8 times the load") << "the end that stands, not the middle";
 }
 
+// A limit of one friction of all joints says nothing of a case whose joints differ.
+TEST(FirstScreen, ALimitWithoutAValueOfTheCaseIsNoVerdict) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
+  e.scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
+  e.scene.joints.bed.emplace().friction = 0.01;
+  e.summary.critical = CriticalValue{"friction", 0.2, 0.2, 0.2 - 1e-9};
+  EXPECT_EQ(verdict_words(e).words, "Limit found");
+  EXPECT_TRUE(reason_for_verdict(e).starts_with("The structure stands down to a friction of 0.2"))
+      << reason_for_verdict(e);
+  EXPECT_EQ(margin_answer(e).detail, "");
+}
+
+// A pull in one direction says nothing of the others.
+TEST(FirstScreen, ALimitOfAnAccelerationNamesItsDirection) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
+  LimitSearch& limit = e.scene.analysis.limit;
+  limit.parameter = LimitSearch::Parameter::acceleration;
+  e.summary.critical = CriticalValue{"acceleration", 0.2, 0.2, 0.2 + 1e-9};
+  limit.direction = {0.0, -2.0, 0.0};
+  EXPECT_EQ(margin_answer(e).detail, "pulled towards -y; other directions are not computed");
+  EXPECT_TRUE(reason_for_verdict(e).ends_with("It is pulled towards -y; other directions are not computed."))
+      << reason_for_verdict(e);
+  limit.direction = {3.0, 4.0, 0.0};
+  EXPECT_EQ(margin_answer(e).detail, "pulled towards (0.6, 0.8, 0); other directions are not computed");
+}
+
 TEST(FirstScreen, WithoutAMarginItNamesTheCommandThatComputesOne) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.scene.file = "cases/my_dome.yaml";
