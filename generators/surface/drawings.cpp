@@ -179,7 +179,6 @@ ProfilePiece catenary(double a, double h) {
 /// Throws where a chain crosses itself: two of its chords that are not neighbours meet.
 void check_crossings(const std::vector<double>& r, const std::vector<double>& z) {
   const auto point = [&](size_t i) { return Vec2(r[i], z[i]); };
-  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   for (size_t i = 0; i + 1 < r.size(); ++i)
     for (size_t j = i + 2; j + 1 < r.size(); ++j) {
       const Vec2 a = point(i), along = point(i + 1) - a, b = point(j), other = point(j + 1) - b;

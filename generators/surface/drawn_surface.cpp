@@ -33,13 +33,16 @@ struct Section {
   double num_rows = 0.0;
   bool mirrored = false;
 
-  Vec2 corner_point(double place) const { return scaled(beds->point(place), corner); }
-  Vec2 corner_normal(double bed, double place) const { return normal_of(bed, place, corner); }
-  /// Normal of the section with a factor on r; at a kink the bisector.
+  /// The point of a bed at its place on the drawn line of the section with a factor on r.
+  Vec2 point(double bed, double place, double factor) const {
+    return scaled(beds->point(place, beds->run(bed)), factor);
+  }
+  /// Normal of that section; at a kink the bisector.
   Vec2 normal_of(double bed, double place, double factor) const {
-    const Vec2 n = outward_normal(scaled(beds->derivative(place), factor));
+    const int run = beds->run(bed);
+    const Vec2 n = outward_normal(scaled(beds->derivative(place, run), factor));
     if (!beds->is_kink(bed)) return n;
-    return (n + outward_normal(scaled(beds->derivative_above(place), factor))).normalized();
+    return (n + outward_normal(scaled(beds->derivative(place, run + 1), factor))).normalized();
   }
   /// Direction of a given bed outwards.
   Vec2 given_direction(double bed) const {
@@ -51,19 +54,22 @@ struct Section {
     const double angle = std::lerp(bed_angles[i], bed_angles[i + 1], at - static_cast<double>(i));
     return {beyond ? -std::cos(angle) : std::cos(angle), std::sin(angle)};
   }
-  /// On the section normal to the side, at a depth (m) behind the intrados.
-  Vec2 layer(double place, double from_intrados) const {
-    const auto [piece, t] = beds->piece_at(place);
-    return layer(beds->pieces()[piece], t, from_intrados);
-  }
-  Vec2 layer(const ProfilePiece& piece, double t, double from_intrados) const {
+  /// On the section normal to the side, at a place on a run and a depth (m) behind the intrados.
+  Vec2 layer(double place, int run, double from_intrados) const {
     const double depth = from_intrados - drawn_depth;
-    const Vec2 p = piece.at(t), d = piece.derivative(t);
+    const Vec2 p = beds->point(place, run), d = beds->derivative(place, run);
     if (depth == 0.0) return scaled(p, middle);
     if (extrados == normal) return scaled(p, middle) + depth * outward_normal(scaled(d, middle));
-    if (extrados == bed) return scaled(p, middle) + Vec2(depth, 0.0);
+    if (extrados == OctagonalVault::Extrados::bed) return scaled(p, middle) + Vec2(depth, 0.0);
     const double along = extrados == midsail ? depth * corner / middle : depth;
     return scaled(scaled(p, corner) + along * outward_normal(scaled(d, corner)), middle / corner);
+  }
+  /// The run whose layer a bed in a given direction meets: at a kink the layers of the two runs meet on the
+  /// bisector.
+  int run_met(double bed, double place, const Vec2& along, double from_intrados) const {
+    const double depth = from_intrados - drawn_depth;
+    const bool meets_upper = beds->is_kink(bed) && depth * cross(normal_of(bed, place, middle), along) > 0.0;
+    return beds->run(bed) + (meets_upper ? 1 : 0);
   }
   static Vec2 scaled(const Vec2& v, double factor) { return {factor * v.x(), v.y()}; }
 };
@@ -74,42 +80,35 @@ double place_where(const Function& f, double place) {
   return f(place) == 0.0 ? place : secant_root(f, place, place + 1e-3);
 }
 
-/// The point of a bed that is plane in each sail.
+/// The point of a bed that is plane in each sail: where a line through the bed on the drawn line meets the
+/// layer.
 Vec2 plane_bed_point(const Section& section, Beds beds, double bed, double depth) {
   const double place = section.beds->place(bed);
-  const Vec2 on_line = Section::scaled(section.beds->point(place), section.middle);
-  if (beds == Beds::level) {
-    if (section.extrados == OctagonalVault::Extrados::bed) return section.layer(place, depth);
-    const auto above = [&](double u) { return section.layer(u, depth).y() - on_line.y(); };
-    return {section.layer(place_where(above, place), depth).x(), on_line.y()};
-  }
-  if (beds == Beds::given) {
-    const Vec2 along = section.given_direction(bed);
-    const auto off_bed = [&](double u) {
-      const Vec2 p = section.layer(u, depth) - on_line;
-      return p.x() * along.y() - p.y() * along.x();
-    };
-    return section.layer(place_where(off_bed, place), depth);
-  }
-  if (!section.beds->is_kink(bed)) return section.layer(place, depth);
-  const Vec2 along = section.normal_of(bed, place, section.middle);
-  const ProfilePiece& below = section.beds->pieces()[section.beds->piece_at(place).first];
-  const auto beside = [&](double t) {  // of the lower run, continued beyond the kink
-    const Vec2 p = section.layer(below, t, depth) - on_line;
-    return p.x() * along.y() - p.y() * along.x();
+  if (beds == Beds::normal && !section.beds->is_kink(bed))
+    return section.layer(place, section.beds->run(bed), depth);
+  const Vec2 on_line = section.point(bed, place, section.middle);
+  const Vec2 along = beds == Beds::level   ? Vec2(1.0, 0.0)
+                     : beds == Beds::given ? section.given_direction(bed)
+                                           : section.normal_of(bed, place, section.middle);
+  const int run = section.run_met(bed, place, along, depth);
+  const auto off_bed = [&](double u) -> double {
+    return cross(section.layer(u, run, depth) - on_line, along);
   };
-  return section.layer(below, place_where(beside, 1.0), depth);
+  const Vec2 p = section.layer(place_where(off_bed, place), run, depth);
+  return {p.x(), beds == Beds::level ? on_line.y() : p.y()};
 }
 
 /// The point of a conical bed at q = 1 / cos psi: its distance from the axis and its height.
 Vec2 conical_bed_point(const Section& section, double bed, double depth, double q) {
   const double place = section.beds->place(bed);
-  const Vec2 on_corner = section.corner_point(place), n = section.corner_normal(bed, place);
+  const Vec2 on_corner = section.point(bed, place, section.corner),
+             n = section.normal_of(bed, place, section.corner);
+  const int run = section.beds->run(bed);
   const auto beside = [&](double u) {
-    const Vec2 p = section.layer(u, depth);
+    const Vec2 p = section.layer(u, run, depth);
     return (q * p.x() - on_corner.x()) * n.y() - (p.y() - on_corner.y()) * n.x();
   };
-  const Vec2 p = section.layer(place_where(beside, place), depth);
+  const Vec2 p = section.layer(place_where(beside, place), run, depth);
   const double rho = q * p.x();
   return {rho, std::abs(n.x()) < 0.1 ? p.y() : on_corner.y() + (rho - on_corner.x()) * n.y() / n.x()};
 }
@@ -225,7 +224,7 @@ bool is_upright(const Drawing& drawing) {
 
 SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceMap surface) {
   const Plan& plan = drawing.plan;
-  const MovingPolygon polygon(corners_of(plan, section.corner_point(0.0)));
+  const MovingPolygon polygon(corners_of(plan, section.point(0.0, 0.0, section.corner)));
   surface.corners = abscissae_of(plan, polygon);
   if (plan.kind == Plan::Kind::polygon) surface.sail_width = 2.0 * pi / plan.sides;
   if (drawing.beds == Beds::conical) {
@@ -237,7 +236,7 @@ SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceM
     };
     return surface;
   }
-  const double first = section.middle * section.beds->point(0.0).x();
+  const double first = section.point(0.0, 0.0, section.middle).x();
   const auto inwards = [=, beds = drawing.beds](double bed, double depth) {
     return first - plane_bed_point(section, beds, bed, depth).x();
   };

@@ -14,10 +14,6 @@ namespace {
 constexpr double kKink = 1e-9;  // sine of the angle between two pieces that meet smoothly
 constexpr int kPanels = 32;     // of the quadrature along a piece that is not even
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 bool meet_at_kink(const ProfilePiece& lower, const ProfilePiece& upper) {
   const Vec2 a = lower.derivative(1.0).normalized(), b = upper.derivative(0.0).normalized();
   return std::abs(cross(a, b)) > kKink || a.dot(b) < 0.0;
@@ -170,11 +166,15 @@ double ProfileBeds::place_in(const Run& run, double share) const {
   return piece + inverse(piece, rest, run.sizes[piece - run.first]);
 }
 
+int ProfileBeds::run(double bed) const {
+  const auto run = std::ranges::find_if(runs_, [&](const Run& r) { return bed <= r.bed_end; });
+  return std::min(static_cast<int>(run - runs_.begin()), num_runs() - 1);
+}
+
 double ProfileBeds::place(double bed) const {
   const int whole = static_cast<int>(bed);
   if (whole == bed && whole >= 0 && whole < static_cast<int>(places_.size())) return places_[whole];
-  const auto run = std::ranges::find_if(runs_, [&](const Run& r) { return bed <= r.bed_end; });
-  const Run& in = run == runs_.end() ? runs_.back() : *run;
+  const Run& in = runs_[run(bed)];
   return place_in(in, (bed - in.bed_start) / (in.bed_end - in.bed_start));
 }
 
@@ -183,24 +183,19 @@ bool ProfileBeds::is_kink(double bed) const {
                              [&](const Run& r) { return r.bed_start == bed; });
 }
 
-std::pair<int, double> ProfileBeds::piece_at(double place) const {
-  const int last = static_cast<int>(pieces_.size()) - 1;
-  const int piece = std::clamp(static_cast<int>(std::ceil(place)) - 1, 0, last);
+std::pair<int, double> ProfileBeds::piece_at(double place, int run) const {
+  const int piece = std::clamp(static_cast<int>(std::ceil(place)) - 1, runs_[run].first, runs_[run].end - 1);
   return {piece, place - piece};
 }
 
-Vec2 ProfileBeds::point(double place) const {
-  const auto [piece, t] = piece_at(place);
+Vec2 ProfileBeds::point(double place, int run) const {
+  const auto [piece, t] = piece_at(place, run);
   return pieces_[piece].at(t);
 }
 
-Vec2 ProfileBeds::derivative(double place) const {
-  const auto [piece, t] = piece_at(place);
+Vec2 ProfileBeds::derivative(double place, int run) const {
+  const auto [piece, t] = piece_at(place, run);
   return pieces_[piece].derivative(t);
-}
-
-Vec2 ProfileBeds::derivative_above(double place) const {
-  return pieces_[static_cast<size_t>(std::lround(place))].derivative(0.0);
 }
 
 }  // namespace cupola

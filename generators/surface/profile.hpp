@@ -11,6 +11,9 @@
 namespace cupola {
 
 using Vec2 = Eigen::Vector2d;
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// A smooth piece of a profile: (r, z) in m over t from 0 to 1. Both functions continue beyond its ends.
 struct ProfilePiece {
@@ -42,18 +45,16 @@ class ProfileBeds {
   ProfileBeds(std::vector<ProfilePiece> pieces, int rings, int rows_per_ring, VaultSurface::Courses by,
               bool mirrored);
 
-  /// The place of a bed, which may be fractional; at a kink that at the end of the lower run.
+  /// The place of a bed, which may be fractional; at a kink that between the two runs.
   double place(double bed) const;
-  /// The piece at a place, and t; at the end of a piece t = 1.
-  std::pair<int, double> piece_at(double place) const;
+  /// The run of a bed, at a kink the lower one.
+  int run(double bed) const;
   /// True for the beds between two runs.
   bool is_kink(double bed) const;
-  Vec2 point(double place) const;
+  /// Of a run, which continues beyond its ends: offset curves have gaps at kinks.
+  Vec2 point(double place, int run) const;
   /// (dr, dz) per u.
-  Vec2 derivative(double place) const;
-  /// Derivative of the run above a kink, where it begins.
-  Vec2 derivative_above(double place) const;
-  const std::vector<ProfilePiece>& pieces() const { return pieces_; }
+  Vec2 derivative(double place, int run) const;
   int num_runs() const { return static_cast<int>(runs_.size()); }
 
  private:
@@ -63,6 +64,8 @@ class ProfileBeds {
     std::vector<double> sizes;  // of its pieces, m
     double size;                // m
   };
+  /// The piece at a place, and t; at the end of a piece t = 1.
+  std::pair<int, double> piece_at(double place, int run) const;
   double size(int piece, double from, double to) const;
   double inverse(int piece, double target, double whole) const;
   double place_in(const Run& run, double share) const;

@@ -271,6 +271,36 @@ TEST(DrawnBeds, GivenAsTheNormalsAreNormal) {
   }
 }
 
+// At a kink the skins behind the drawn line have a gap, which the beds that are not normal must not meet.
+TEST(DrawnBeds, AtAKinkStandAtTheirAngles) {
+  for (const double ratio : {0.8, 1.0})
+    for (const auto line : {VaultSurface::Line::intrados, VaultSurface::Line::middle}) {
+      VaultSurface pointed = vault_on(Plan::Kind::line, profile_of(Kind::pointed, 5.0), 0.3);
+      pointed.profile.radius_ratio = ratio;
+      pointed.line = line;
+      pointed.beds = VaultSurface::Beds::given;
+      pointed.bed_angles_deg = {0.0, 90.0};
+      const SurfaceMap map = make_surface(pointed, 24);
+      for (int bed = 0; bed <= 24; ++bed) {
+        const Vec3 along = map.extrados(bed, 0) - map.intrados(bed, 0);
+        EXPECT_NEAR(std::atan2(along.z(), along.x()), pi * bed / 24, 1e-12) << ratio << " " << bed;
+      }
+      const double e = 5.0 * ratio - 2.5,
+                   back = 5.0 * ratio + (line == VaultSurface::Line::middle ? 0.15 : 0.3);
+      EXPECT_NEAR(map.extrados(12, 0).z(), std::sqrt(back * back - e * e), 1e-12) << ratio;
+    }
+}
+
+// A level bed through a kink meets the skin of the lower run outside the drawn line, of the upper one inside.
+TEST(DrawnBeds, AtAKinkMeetTheSkinOfTheRunOnTheirSide) {
+  VaultSurface level = vault_on(Plan::Kind::circle, chain_of({4, 3, 1}, {0, 3, 5}), 0.8);  // slopes 3 and 1
+  level.line = VaultSurface::Line::middle;
+  level.beds = VaultSurface::Beds::level;
+  const SurfaceMap map = make_surface(level, 5);  // bed 3 is at the kink
+  EXPECT_LT((map.extrados(3, 0) - Vec3(3 + 0.4 * std::sqrt(10) / 3, 0, 3)).norm(), 1e-13);
+  EXPECT_LT((map.intrados(3, 0) - Vec3(3 - 0.4 * std::sqrt(2), 0, 3)).norm(), 1e-13);
+}
+
 // Courses by angle: the normals of an ellipse turn by the same angle from bed to bed.
 TEST(DrawnBeds, CoursesByAngleTurnEqually) {
   VaultSurface oval = vault_on(Plan::Kind::line, profile_of(Kind::ellipse, 10.0, 3.0));
