@@ -96,9 +96,11 @@ void lay_wythe(const Wythe& wythe, const BondPattern& own, int index, const Bond
   }
   for (int slice = 0; slice < pattern->num_slices(); ++slice) {
     const int from = slice_at(own, middle_of_slice(*pattern, slice), grid);
-    for (int ring = 0; ring < pattern->num_rings; ++ring)
-      if (wythe.where.contains(heights[ring]))
-        pattern->at(ring, slice, index) = offset + own.at(ring / courses, from);
+    for (int ring = 0; ring < pattern->num_rings; ++ring) {
+      const int block = own.at(ring / courses, from);
+      if (block != kVoid && wythe.where.contains(heights[ring]))
+        pattern->at(ring, slice, index) = offset + block;
+    }
   }
 }
 

@@ -244,6 +244,17 @@ TEST(DrawnWythes, AreTheEnglishBondOfBonders) {
     EXPECT_EQ(same.try_emplace(bond.block_of[cell], laid.block_of[cell]).first->second, laid.block_of[cell]);
 }
 
+TEST(DrawnWythes, KeepTheirEmptyCells) {
+  const BondPattern bond =
+      make_wythe_bond(wythes({{"c.dd", "aabb"}, {"eef.", "gghh"}}), wall(16, 4), {0, 1, 2, 3});
+  EXPECT_EQ(bond.num_slices(), 16);
+  for (int ring = 0; ring < 4; ++ring)
+    for (int slice = 0; slice < 16; ++slice)
+      for (int wythe = 0; wythe < 2; ++wythe)
+        EXPECT_EQ(bond.at(ring, slice, wythe) == kVoid, ring % 2 == 1 && slice % 4 == (wythe == 0 ? 1 : 3))
+            << ring << " " << slice << " " << wythe;
+}
+
 TEST(DrawnWythes, AreRefusedIfALetterGoesOnThroughThem) {
   // x steps from wythe to wythe and along, without end.
   EXPECT_THROW(make_wythe_bond(wythes({{"dddc", "xxxa"}, {"hihh", "xbxx"}}), wall(16, 4), {0, 1, 2, 3}),
