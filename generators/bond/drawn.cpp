@@ -7,6 +7,7 @@
 
 #include "assembly/base/error.hpp"
 #include "generators/bond/drawing.hpp"
+#include "generators/bond/rests.hpp"
 
 namespace cupola {
 namespace {
@@ -124,22 +125,7 @@ class Laying {
         if (neighbour == kVoid) continue;
         for (int i = 0; i < width; ++i) pattern_.at(ring, end + step * i) = neighbour;
       }
-    drop_empty_blocks();
-  }
-
-  void drop_empty_blocks() {
-    std::vector<int> new_id(pattern_.blocks.size(), kVoid);
-    std::vector<BondBlock> kept;
-    for (int& block : pattern_.block_of) {
-      if (block == kVoid) continue;
-      int& id = new_id[static_cast<size_t>(block)];
-      if (id == kVoid) {
-        id = static_cast<int>(kept.size());
-        kept.push_back(pattern_.blocks[static_cast<size_t>(block)]);
-      }
-      block = id;
-    }
-    pattern_.blocks = std::move(kept);
+    separate_rests(grid_.closed, cells_per_block(pattern_), &pattern_);
   }
 
   const DrawnBond& bond_;

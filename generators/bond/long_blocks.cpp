@@ -7,25 +7,9 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/bond/rests.hpp"
 
 namespace cupola {
-namespace {
-
-/// Removes the blocks without cells.
-void drop_empty_blocks(BondPattern* pattern) {
-  std::vector<int> new_index(pattern->blocks.size(), -1);
-  std::vector<BondBlock> kept;
-  for (int& block : pattern->block_of) {
-    if (new_index[block] < 0) {
-      new_index[block] = static_cast<int>(kept.size());
-      kept.push_back(pattern->blocks[block]);
-    }
-    block = new_index[block];
-  }
-  pattern->blocks = std::move(kept);
-}
-
-}  // namespace
 
 std::set<int> equal_starts(const BondGrid& grid, const std::vector<double>& cuts, int count, double phase) {
   const auto distance = [&](double a, double b) { return std::abs(std::remainder(a - b, grid.extent)); };
@@ -52,6 +36,7 @@ void lay_long_blocks(const BondGrid& grid, int first_ring, int last_ring, int co
   for (int ring = 0; ring < pattern->num_rings; ++ring)
     for (int slice = 0; slice < num_slices && (ring < first_ring || ring > last_ring); ++slice)
       outside.insert(pattern->at(ring, slice));
+  outside.erase(kVoid);
   const std::set<int> starts = equal_starts(grid, pattern->cuts, count, grid.corners.empty() ? 0.0 : -0.5);
   if (std::ssize(starts) < count)
     throw InputError(
@@ -71,7 +56,7 @@ void lay_long_blocks(const BondGrid& grid, int first_ring, int last_ring, int co
       pattern->at(ring, slice) = block;
     }
   }
-  drop_empty_blocks(pattern);
+  separate_rests(grid.closed, cells_per_block(*pattern), pattern);
 }
 
 }  // namespace cupola

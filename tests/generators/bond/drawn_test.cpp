@@ -13,6 +13,7 @@
 #include "assembly/base/error.hpp"
 #include "generators/bond/courses.hpp"
 #include "generators/bond/drawing.hpp"
+#include "generators/bond/long_blocks.hpp"
 #include "generators/bond/wythe_bond.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
@@ -188,6 +189,17 @@ TEST(Drawn, RingsTakeWholeDrawings) {
   half.phase = 0.5;
   EXPECT_NEAR(drawn_bond(half, ring(8, 1)).cuts.front(), 2 * std::numbers::pi / 16, 1e-15);
   EXPECT_NE(error_of(half, wall(8, 1)).find("whole number of letters on an open surface"), std::string::npos);
+}
+
+// Long blocks fill the empty cells of their course, and those of the others stay empty.
+TEST(Drawn, LongBlocksLeaveTheEmptyCellsOfOtherCourses) {
+  const BondGrid grid = ring(24, 4);
+  BondPattern bond = drawn_bond(drawn({"ccd.", "aab."}), grid);
+  lay_long_blocks(grid, 1, 1, 6, "geometry.chains[0]", &bond);
+  EXPECT_EQ(bond.blocks.size(), 6u + 3 * 12);
+  for (int course = 0; course < 4; ++course)
+    for (int slice = 0; slice < 24; ++slice)
+      EXPECT_EQ(bond.at(course, slice) == kVoid, course != 1 && slice % 4 == 3) << course << " " << slice;
 }
 
 /// Wythes of one thickness, inside first.
