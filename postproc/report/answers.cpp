@@ -85,6 +85,19 @@ std::string first_clause(const std::string& message) {
   return message.substr(start, message.find("; ", start) - start);
 }
 
+/// The last clause of the message of a staged run: what the search for the least property has found, if not
+/// a value of all stages.
+KeyNumber least_answer(const Evaluation& e) {
+  const std::string& message = e.summary.message;
+  const size_t end = message.rfind("; ");
+  const std::string clause = message.substr(end == std::string::npos ? 0 : end + 2);
+  return {"Critical fresh " + std::string(to_string(e.scene.analysis.staged.least)),
+          clause.starts_with("every stage stands") ? "0"
+          : clause.starts_with("no fresh")         ? "none"
+                                                   : "unknown",
+          clause};
+}
+
 bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
@@ -126,6 +139,8 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (is_limit(e) && moves(e.summary.status))
     return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "none",
             first_clause(e.summary.message)};
+  if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
+    return least_answer(e);
   if (!at_rest(e))
     return {"Margin", moves(e.summary.status) || e.summary.status == Status::collapsed ? "none" : "unknown",
             lack_of_equilibrium(e.summary, e.last.frame.role) +

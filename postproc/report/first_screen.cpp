@@ -127,7 +127,7 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   if (construction)
     numbers.insert(numbers.begin(),
                    {"Stages that stand",
-                    fmt::format("{} of {}", construction->standing, construction->table.rows.size()),
+                    fmt::format("{} of {} solved", construction->standing, construction->table.rows.size()),
                     construction->worst});
   out += numbers_html(numbers);
   if (const std::string certain = certain_sentence(e); !certain.empty())

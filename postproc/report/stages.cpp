@@ -1,7 +1,6 @@
 #include "postproc/report/stages.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -49,13 +48,6 @@ Notable notable_stages(const CsvFile& csv, size_t verdict, size_t needs) {
       out.demanding = row;
   }
   return out;
-}
-
-/// "1st", "12th".
-std::string ordinal(size_t number) {
-  constexpr std::array kEndings{"th", "st", "nd", "rd"};
-  const size_t last = number / 10 % 10 == 1 ? 0 : number % 10;
-  return fmt::format("{}{}", number, last < kEndings.size() ? kEndings[last] : kEndings[0]);
 }
 
 /// "4 blocks of course 20 slide", of the rows of one stage in failures.csv; "" without any.
@@ -146,10 +138,9 @@ StageReport report_stages(const Evaluation& e, Least least, const CsvFile& csv,
   out.standing = notable.standing;
   if (const auto& row = notable.failing ? notable.failing : notable.demanding) {
     const std::string moving = what_moves(failures, csv.number(*row, number));
-    out.worst =
-        fmt::format("{} the {} of {}, in course {}",
-                    notable.failing ? "the first that does not:" : "the most demanding:", ordinal(*row + 1),
-                    csv.rows.size(), csv.rows[*row][ring]);
+    out.worst = fmt::format("{}: stage {}, in course {}",
+                            notable.failing ? "the first that does not" : "the most demanding",
+                            csv.rows[*row][number], csv.rows[*row][ring]);
     if (!moving.empty())
       out.worst += notable.failing ? ", where " + moving
                                    : fmt::format("; if the {} is less, {}", to_string(least), moving);

@@ -17,15 +17,20 @@ std::string stage_name(int number, const LaidBlocks& laid, const Assembly& assem
                      block_label(assembly, laid.blocks.front()));
 }
 
-/// What the searches for the least property have shown, as the end of a message.
-std::string least_message(const ConstructionProgress& p, Least property) {
-  const std::string name = to_string(property);
-  std::string message =
-      fmt::format("; {} without fresh {}", counted(p.need_none, "stage stands", "stages stand"), name);
-  if (p.undecided > 0)
-    message += fmt::format("; the least fresh {} of {} is not known to the width asked for", name,
-                           counted(p.undecided, "stage"));
-  return message;
+/// "no fresh cohesion up to 1 MPa holds stage 3 in course 3 (block 8)"; `tried`: the largest value.
+std::string not_held_text(Least property, double tried, const std::string& stage) {
+  const std::string most =
+      property == Least::cohesion ? fmt::format("{:g} MPa", 1e-6 * tried) : fmt::format("{:g}", tried);
+  return fmt::format("no fresh {} up to {} holds {}", to_string(property), most, stage);
+}
+
+/// The answer to analysis.staged.least, the last clause of the message. A value that not all stages have
+/// is none of the construction.
+std::string least_answer(const ConstructionProgress& p, Least property, const std::string& most_demanding) {
+  if (!p.not_held.empty()) return p.not_held;
+  if (p.least_stands < 0.0) return fmt::format("every stage stands without fresh {}", to_string(property));
+  return fmt::format("the most demanding is {}, which needs {:.4g}{}", most_demanding, p.least_stands,
+                     property == Least::cohesion ? " Pa" : "");
 }
 
 }  // namespace
@@ -44,11 +49,21 @@ void ConstructionProgress::include(const LaidBlocks& laid, const Construction& b
   motion_proven = motion_proven || (solution.outcome == StaticOutcome::moving && solution.proven);
   if (!stands && first_failure.empty())
     first_failure = stage_name(next, laid, site.assembly) + ": " + solution.message;
-  const bool seeks = site.scene.analysis.staged.least != Least::none;
-  undecided += seeks && !stage.least.needs_none && !stage.least.bracket.narrow;
-  if (stage.least.bracket.found && stage.least.bracket.stable.value > least_stands) {
-    least_stands = stage.least.bracket.stable.value;
-    least_moves = stage.least.bracket.moving.value;
+  const Least property = site.scene.analysis.staged.least;
+  const Bracket& bracket = stage.least.bracket;
+  if (property != Least::none && !stage.least.needs_none) {
+    undecided += bracket.found && !bracket.narrow;
+    if (!bracket.found && not_held.empty()) {
+      const std::string name = stage_name(next, laid, site.assembly);
+      not_held = bracket.moving.outcome == StaticOutcome::moving
+                     ? not_held_text(property, bracket.moving.value, name)
+                     : fmt::format("the least fresh {} of {} was not found ({})", to_string(property), name,
+                                   bracket.message);
+    }
+  }
+  if (bracket.found && bracket.stable.value > least_stands) {
+    least_stands = bracket.stable.value;
+    least_moves = bracket.moving.value;
     least_stage = next;
   }
   stages_csv += construction_row(next, laid, building, stage);
@@ -66,17 +81,21 @@ void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Ca
                                         : motion(motion_proven);
   summary->message = fmt::format("stages that stand with the mortar of the case: {} of {}", standing, solved);
   if (!first_failure.empty()) summary->message += "; the first that does not is " + first_failure;
-  if (ended)
-    summary->message +=
-        fmt::format("; the construction ends there, {} were not reached", counted(total - solved, "stage"));
+  if (ended && solved < total)
+    summary->message += fmt::format("; the construction ends at stage {}, {} not reached", next - 1,
+                                    counted(total - solved, "stage was", "stages were"));
   if (property == Least::none) return;
-  summary->message += least_message(*this, property);
-  if (least_stands < 0.0) return;
-  summary->critical = CriticalValue{"fresh " + std::string(to_string(property)),
-                                    0.5 * (least_stands + least_moves), least_stands, least_moves};
-  summary->message += fmt::format("; the most demanding is {}, which needs {:.4g}{}",
-                                  stage_name(least_stage, stages[least_stage], assembly), least_stands,
-                                  property == Least::cohesion ? " Pa" : "");
+  const std::string name = to_string(property);
+  summary->message +=
+      fmt::format("; {} without fresh {}", counted(need_none, "stage stands", "stages stand"), name);
+  if (undecided > 0)
+    summary->message += fmt::format("; the least fresh {} of {} is not known to the width asked for", name,
+                                    counted(undecided, "stage"));
+  summary->message +=
+      "; " + least_answer(*this, property, stage_name(least_stage, stages[least_stage], assembly));
+  if (not_held.empty() && least_stands >= 0.0)
+    summary->critical =
+        CriticalValue{"fresh " + name, 0.5 * (least_stands + least_moves), least_stands, least_moves};
 }
 
 }  // namespace cupola

@@ -20,6 +20,7 @@ struct ConstructionProgress {
   WorstOfRun worst;
   double least_stands = -1.0, least_moves = 0.0;  ///< of the most demanding stage; < 0: none found
   int least_stage = 0;
+  std::string not_held;  ///< in words, the first stage for which the search found no value; empty: none
   std::optional<std::pair<double, double>> last_bracket;  ///< of the search
   std::string first_failure;  ///< stage and message of the first one that does not stand
   bool unconverged = false, ended = false;
@@ -51,8 +52,8 @@ void visit(Archive& archive, BuiltState& x) {
 template <class Archive>
 void visit(Archive& archive, ConstructionProgress& x) {
   archive(x.next, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance, x.worst,
-          x.least_stands, x.least_moves, x.least_stage, x.last_bracket, x.first_failure, x.unconverged,
-          x.ended, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
+          x.least_stands, x.least_moves, x.least_stage, x.not_held, x.last_bracket, x.first_failure,
+          x.unconverged, x.ended, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
 }
 
 }  // namespace cupola

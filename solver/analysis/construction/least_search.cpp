@@ -33,6 +33,7 @@ LeastSearch::Result LeastSearch::find(const TryValue& solve) {
     if (trial->outcome == equilibrium) break;
     if (trial->outcome == moving) low = std::max(low, high);
     if (high >= most_) {
+      if (trial->outcome == moving) result.bracket.moving = *trial;
       result.bracket.message =
           fmt::format("{} at {:g}, the largest value tried", to_string(trial->outcome), high);
       return result;

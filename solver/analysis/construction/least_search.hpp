@@ -20,7 +20,7 @@ class LeastSearch {
     Bracket bracket;          ///< if it does not
   };
   /// Result::bracket.found is false, with the reason, if no value up to `most` is found with which it stands,
-  /// or if a solve at zero does not converge.
+  /// or if a solve at zero does not converge. If it moves at `most`, that is the moving end of the bracket.
   Result find(const TryValue& solve);
 
   /// For checkpoints: the last bracket found, values at which a structure stands and moves.

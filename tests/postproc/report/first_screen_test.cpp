@@ -51,6 +51,27 @@ TEST(FirstScreen, NegligibleJointsAreNeverTheWorst) {
   EXPECT_FALSE(worst_joints(joints).edge);
 }
 
+// What the search for the least property of fresh mortar ends with, if not a value of all stages.
+TEST(FirstScreen, AConstructionWithoutALeastPropertySaysWhy) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::staged;
+  e.scene.analysis.staged.least = StagedConstruction::Least::cohesion;
+  const auto answer = [&e](Status status, FrameRole role, const char* clause) {
+    e.summary.status = status;
+    e.last.frame.role = role;
+    e.summary.message = std::string("stages that stand with the mortar of the case: 2 of 4; ") + clause;
+    const KeyNumber margin = margin_answer(e);
+    EXPECT_EQ(margin.name, "Critical fresh cohesion");
+    EXPECT_EQ(margin.detail, clause);
+    return margin.value;
+  };
+  EXPECT_EQ(answer(Status::moving, FrameRole::failed_stage, "no fresh cohesion up to 1 MPa holds stage 3"),
+            "none");
+  EXPECT_EQ(answer(Status::stable, FrameRole::stage, "every stage stands without fresh cohesion"), "0");
+  EXPECT_EQ(answer(Status::stable, FrameRole::stage, "the least fresh cohesion of stage 3 was not found"),
+            "unknown");
+}
+
 TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.summary.analysis = AnalysisType::limit;

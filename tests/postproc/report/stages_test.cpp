@@ -26,7 +26,7 @@ TEST(Stages, HaveTheHeightsOfTheirRings) {
   EXPECT_NEAR(std::get<double>(c.table.rows[0][2]), 0.5, 1e-12) << "the bed of ring 1";
   EXPECT_EQ(std::get<double>(c.table.rows[0][6]), 0.12);
   EXPECT_TRUE(std::isnan(std::get<double>(c.table.rows[1][6])));
-  EXPECT_EQ(c.worst, "the first that does not: the 2nd of 2, in course 2");
+  EXPECT_EQ(c.worst, "the first that does not: stage 1, in course 2");
   ASSERT_TRUE(c.figure);
   EXPECT_NE(c.figure->commands.find("\n0 0.12 \n"), std::string::npos);
 }
@@ -39,7 +39,7 @@ TEST(Stages, OldTablesOfRingsAreRead) {
       "stages.csv");
   const StageReport c = report_stages(test::column_evaluation(0.6, 0.4), kFriction, from_stages_csv(old), {});
   EXPECT_EQ(c.standing, 2);
-  EXPECT_EQ(c.worst, "the most demanding: the 1st of 2, in course 1");
+  EXPECT_EQ(c.worst, "the most demanding: stage 0, in course 1");
   EXPECT_EQ(std::get<int>(c.table.rows[1][0]), 1) << "stage";
   EXPECT_EQ(std::get<int>(c.table.rows[1][3]), 1) << "laid";
   EXPECT_EQ(std::get<double>(c.table.rows[1][6]), 0.0);
@@ -64,8 +64,8 @@ TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
   EXPECT_EQ(c.standing, 3);
   EXPECT_EQ(
       c.worst,
-      "the most demanding: the 2nd of 3, in course 2; if the cohesion is less, 1 block of course 1 tips, 2 "
-      "blocks of course 2 slide");
+      "the most demanding: stage 1, in course 2; if the cohesion is less, 1 block of course 1 tips, 2 blocks "
+      "of course 2 slide");
   EXPECT_EQ(c.table.columns[6].key, "least_stands_Pa");
   EXPECT_EQ(std::get<double>(c.table.rows[1][6]), 6000.0);
   EXPECT_EQ(std::get<std::string>(c.table.rows[0][8]), "1 block of course 2 slides");
@@ -83,7 +83,7 @@ TEST(Stages, TheFirstStageThatDoesNotStandSaysWhatMoves) {
   const StageReport c =
       report_stages(test::column_evaluation(0.6, 0.4), StagedConstruction::Least::none, stages, failures);
   EXPECT_EQ(c.standing, 1);
-  EXPECT_EQ(c.worst, "the first that does not: the 2nd of 2, in course 1, where 1 block of course 1 slides");
+  EXPECT_EQ(c.worst, "the first that does not: stage 1, in course 1, where 1 block of course 1 slides");
   EXPECT_FALSE(c.figure);
   for (const Table::Column& column : c.table.columns)
     EXPECT_FALSE(column.key.starts_with("least")) << column.key;

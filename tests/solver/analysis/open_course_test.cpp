@@ -130,12 +130,37 @@ TEST(Construction, EmbeddedUprightHoldsByTheCohesionOfItsSides) {
   }
 }
 
+// A flat brick slides without cohesion, the tall one that follows tips with any: no value is that of the
+// construction, and the third brick is never laid.
+TEST(Construction, NoCohesionIsNamedIfAStageFallsWithAny) {
+  const double theta = 38.7 * kDeg, density = kGamma / testing::kG;
+  Assembly assembly = testing::make_boxes(
+      {{.center = {0, 0, -0.05}, .size = {1, 3, 0.1}, .fixed = true},
+       {.center = {0, -1, 0.025}, .size = {0.34, 0.34, 0.05}, .density = density, .ring = 5},
+       {.center = {0, 0, 0.2}, .size = {0.1, 0.34, 0.4}, .density = density, .ring = 6},
+       {.center = {0, 1, 0.025}, .size = {0.34, 0.34, 0.05}, .density = density, .ring = 7}});
+  assembly.num_rings = 8;
+  Case scene = course_case(theta, 0.2);
+  scene.analysis.staged.least = StagedConstruction::Least::cohesion;
+  const Built built = build(scene, assembly);
+  ASSERT_EQ(built.stages.size(), 2u) << built.summary.message;
+  EXPECT_NE(built.stages[0].at("least_stands"), "");
+  EXPECT_EQ(built.stages[1].at("least_stands"), "");
+  EXPECT_EQ(built.summary.status, Status::moving);
+  EXPECT_FALSE(built.summary.critical) << "only stage 0 has a value";
+  EXPECT_TRUE(
+      built.summary.message.ends_with("; the construction ends at stage 1, 1 stage was not reached; 0 stages "
+                                      "stand without fresh cohesion; no "
+                                      "fresh cohesion up to 1 MPa holds stage 1 in course 6 (block 2)"))
+      << built.summary.message;
+}
+
 // Without `least` there is no mortar with which to go on.
 TEST(Construction, EndsAtTheFirstStageThatDoesNotStand) {
   const Built built = build(course_case(38.7 * kDeg, 0.2), make_course({.bricks = 3}));
   EXPECT_EQ(built.summary.status, Status::moving);
   EXPECT_EQ(built.stages.size(), 1u);
-  EXPECT_NE(built.summary.message.find("the construction ends there, 2 stages were not reached"),
+  EXPECT_NE(built.summary.message.find("the construction ends at stage 0, 2 stages were not reached"),
             std::string::npos)
       << built.summary.message;
 }
