@@ -156,6 +156,7 @@ double unbalanced_force(const Evaluation& e) {
 }
 
 /// The motion of a mechanism: of the frame evaluated, or of that which follows the equilibrium of a limit.
+/// Stages move in many ways: their table says how each does.
 void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
   const double dilatancy =
       e->summary.friction_law == FrictionLaw::coulomb ? 0.0 : e->summary.dilatancy.value_or(1.0);
@@ -166,7 +167,7 @@ void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
   if (!e->summary.critical || e->times.size() < 2) return;
   try {
     const Frame frame = results.read_frame(1);
-    if (is_mechanism(frame.role))
+    if (frame.role == FrameRole::mechanism)
       e->gives_way = motion_of(frame, joint_wrenches(e->assembly, frame.contacts, e->shell));
   } catch (const InputError& error) {
     leave_out(frame_name(1), error.what(), e);

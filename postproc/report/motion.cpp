@@ -20,9 +20,11 @@ int count_moving(const Evaluation& e, double least) {
   return count;
 }
 
-/// Bodies that move: all groups but that of the supports.
+/// Bodies that move: all groups but those of the supports and of blocks that are not laid.
 size_t count_bodies(const Evaluation& e) {
-  std::set<int> bodies(e.last.groups.begin(), e.last.groups.end());
+  std::set<int> bodies;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    if (e.last.frame.blocks.displacement[b].norm() > 0.0) bodies.insert(e.last.groups[b]);
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
     if (e.assembly.blocks[b].fixed) bodies.erase(e.last.groups[b]);
   return bodies.size();
@@ -147,6 +149,11 @@ std::string how_sure_of_motion(const Evaluation& e) {
                : "A motion was found, but other contact forces might balance the loads; a range analysis "
                  "(analysis.type: range) shows whether any do.";
   }
+  if (is_stage(e.last.frame.role))
+    return proven(s.status)
+               ? "It is proven of at least one stage that no forces within the limits of the joints balance "
+                 "its loads."
+               : "Motions were found, but other contact forces might balance the loads of these stages.";
   if (e.last.frame.role != FrameRole::step) return "";
   if (analysis.time_error)
     return fmt::format("The motion was followed with an estimated error of about {} per step.",

@@ -199,7 +199,8 @@ std::string certain_sentence(const Evaluation& e) {
   const bool limit = s.analysis == AnalysisType::limit && s.critical;
   if (s.status == Status::unconverged && !limit && s.ranges.empty())
     return "Nothing is certain: the requested accuracy was not reached.";
-  if (!at_rest(e) && !s.critical) {
+  const bool stages = is_stage(e.last.frame.role);
+  if (!at_rest(e) && (!s.critical || stages)) {
     const std::string motion = how_sure_of_motion(e);
     return fmt::format("{}{}Assumed: {}.", motion, motion.empty() ? "" : " ", assumptions(e));
   }
@@ -210,10 +211,10 @@ std::string certain_sentence(const Evaluation& e) {
         "that depends on "
         "its history. Assumed: {}.",
         assumptions(e));
-  const char* of = is_stage(e.last.frame.role) ? "at every stage "
-                   : !s.parts.empty()          ? "in the part that stands "
-                   : support_motion(e) > 0.0   ? "after the motion of the supports "
-                                               : "";
+  const char* of = stages                    ? "at every stage "
+                   : !s.parts.empty()        ? "in the part that stands "
+                   : support_motion(e) > 0.0 ? "after the motion of the supports "
+                                             : "";
   const std::optional<KeyNumber> crack = crack_answer(e);
   const char* how =
       e.scene.joints.have_strength() ? "within the limits of the joints" : "by friction and without tension";
@@ -266,6 +267,7 @@ std::string sentence_of_verdicts(const Evaluation& e) {
 
 std::string parts_sentence(const Evaluation& e) {
   if (!e.summary.parts.empty()) return sentence_of_verdicts(e);
+  if (is_stage(e.last.frame.role)) return "";  // what is not laid is no part; the stages say what moves
   if (at_rest(e) || e.summary.status == Status::unconverged || e.parts.empty()) return "";
   constexpr double kMoves = 1e-3;  // of the fastest block
   const std::vector<Vec3>& v =

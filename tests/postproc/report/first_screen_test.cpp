@@ -9,6 +9,7 @@
 #include "postproc/report/answers.hpp"
 #include "postproc/report/gives_way.hpp"
 #include "postproc/report/loads_text.hpp"
+#include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/worst_joints.hpp"
 #include "tests/postproc/scene.hpp"
@@ -240,6 +241,20 @@ TEST(FirstScreen, SaysWhichPartMoves) {
   EXPECT_EQ(parts_sentence(e),
             "Of 2 unconnected parts one moves (2 blocks); the others, 1 block, are at rest.");
   EXPECT_EQ(verdict_words(e).words, "It falls");
+
+  // The same as two stages of a construction that has not laid the uppermost block yet.
+  parted.blocks.velocity[3] = Vec3::Zero();
+  summary.analysis = AnalysisType::staged;
+  summary.critical = CriticalValue{"fresh cohesion", 1000.0, 1010.0, 990.0};
+  const Evaluation built =
+      test::evaluated(a, {parted, parted}, summary, test::column_case(), test::fresh_folder("built"));
+  ASSERT_EQ(built.last.frame.role, FrameRole::failed_stage);
+  EXPECT_EQ(parts_sentence(built), "");
+  EXPECT_EQ(how_it_gives_way(built), "") << "each stage has its own way";
+  EXPECT_TRUE(certain_sentence(built).starts_with("It is proven of at least one stage that no forces"))
+      << certain_sentence(built);
+  EXPECT_TRUE(motion_numbers(built, {})[0].detail.ends_with("they form 1 body"))
+      << motion_numbers(built, {})[0].detail;
 }
 
 // The column stands on 1.2 m of support, 0.8 m thick.
