@@ -55,8 +55,7 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
       sinks_(sinks),
       building_(scene, assembly, sinks.log),
       search_(first_search(scene)) {
-  int top = 0;
-  for (const Block& block : assembly.blocks) top = std::max(top, block.ring);
+  const int top = std::max(0, std::ranges::max(building_.site().course));
   const int last = staged_.last_ring < 0 ? top : std::min(staged_.last_ring, top);
   if (staged_.first_ring > last)
     throw InputError(fmt::format("analysis.staged.first_ring = {}: must not exceed the last ring, {}",
@@ -69,7 +68,7 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
 bool ConstructionRun::lay_foundation() {
   std::vector<int> below;
   for (size_t block = 0; block < assembly_.blocks.size(); ++block)
-    if (!assembly_.blocks[block].fixed && assembly_.blocks[block].ring < staged_.first_ring)
+    if (!assembly_.blocks[block].fixed && building_.site().course[block] < staged_.first_ring)
       below.push_back(static_cast<int>(block));
   if (below.empty()) return true;
   building_.lay(below, staged_.first_ring);

@@ -7,11 +7,12 @@ namespace cupola {
 namespace {
 
 /// The blocks of a course in the order in which one team would lay them all.
-std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruction& staged, int ring) {
+std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruction& staged,
+                                 const std::vector<int>& courses, int ring) {
   using enum StagedConstruction::Order;
   std::vector<int> course;
   for (int block = 0; block < static_cast<int>(assembly.blocks.size()); ++block)
-    if (!assembly.blocks[block].fixed && assembly.blocks[block].ring == ring) course.push_back(block);
+    if (!assembly.blocks[block].fixed && courses[block] == ring) course.push_back(block);
   const auto slot = [&](int block) { return assembly.blocks[block].slot; };
   std::ranges::stable_sort(course, {}, slot);
   if (staged.order == clockwise || (staged.order == alternating && ring % 2 == 1))
@@ -28,11 +29,26 @@ std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruct
 
 }  // namespace
 
+std::vector<int> laying_courses(const Assembly& assembly) {
+  std::vector<int> courses;
+  for (const Block& block : assembly.blocks) {
+    const Sheet* sheet = block.fixed ? nullptr : assembly.sheet_of(block.ring);
+    int course = block.fixed ? -1 : block.ring;
+    if (sheet && sheet->thrust_lines == Sheet::ThrustLines::one) {
+      const int last = 2 * sheet->first_ring + sheet->num_rings - block.ring - block.num_rings;
+      course = std::min(course, last);
+    }
+    courses.push_back(course);
+  }
+  return courses;
+}
+
 std::vector<LaidBlocks> laying_order(const Assembly& assembly, const StagedConstruction& staged, int first,
                                      int last) {
+  const std::vector<int> courses = laying_courses(assembly);
   std::vector<LaidBlocks> stages;
   for (int ring = first; ring <= last; ++ring) {
-    const std::vector<int> course = course_in_order(assembly, staged, ring);
+    const std::vector<int> course = course_in_order(assembly, staged, courses, ring);
     if (course.empty()) continue;
     if (staged.unit == StagedConstruction::Unit::ring) {
       stages.push_back({ring, 1.0, course});

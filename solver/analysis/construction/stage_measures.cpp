@@ -30,7 +30,7 @@ Frame stage_frame(const Construction& building, const StaticSolution& solution) 
     frame.blocks.quaternion_wxyz[block] = {total.w(), total.x(), total.y(), total.z()};
   }
   for (int i = 0; i < frame.contacts.size(); ++i)
-    if (frame.contacts.kind[i] == JointKind::base) frame.contacts.ring[i] = 0;  // as the file format says
+    frame.contacts.ring[i] = building.site().rings[problem.contacts.points[i].patch];
   return frame;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "solver/analysis/construction/mortar_age.hpp"
+#include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
@@ -34,17 +35,20 @@ bool BuiltState::complete() const {
 BuildingSite::BuildingSite(const Case& the_case, const Assembly& of_it)
     : scene(the_case),
       assembly(of_it),
+      course(laying_courses(of_it)),
       contacts(ContactDetector(of_it, detection_options(the_case)).update(initial_poses(of_it))) {
-  // A joint with a support is as old as its free block.
-  for (Patch& patch : contacts.patches)
-    if (patch.kind == JointKind::base)
-      patch.ring = std::max(assembly.blocks[patch.block_a].ring, assembly.blocks[patch.block_b].ring);
+  const auto own = [this](int block) { return course[block] == assembly.blocks[block].ring; };
+  for (Patch& patch : contacts.patches) {
+    rings.push_back(patch.ring);
+    // A joint with a support is as old as its free block.
+    if (patch.kind == JointKind::base || !own(patch.block_a) || !own(patch.block_b))
+      patch.ring = std::max(course[patch.block_a], course[patch.block_b]);
+  }
 }
 
 bool BuildingSite::is_held(int block, int ring) const {
-  const Block& b = assembly.blocks[block];
   const int below = scene.analysis.staged.hold_below;
-  return b.fixed || (below >= 0 && b.ring < ring - below);
+  return assembly.blocks[block].fixed || (below >= 0 && course[block] < ring - below);
 }
 
 Model stage_model(const BuildingSite& site, const BuiltState& state, const std::optional<double>& trial) {

@@ -37,7 +37,10 @@ struct BuiltState {
 struct BuildingSite {
   const Case& scene;
   const Assembly& assembly;
-  ContactSet contacts;  ///< of the complete assembly as designed
+  std::vector<int> course;  ///< with which each block is laid, laying_courses()
+  ContactSet
+      contacts;  ///< of the complete assembly as designed; the ring of a patch is the course of its age
+  std::vector<int> rings;  ///< of the patches as detected
 
   BuildingSite(const Case& scene, const Assembly& assembly);
   /// A support, or a block so far below course `ring` that it counts as one.

@@ -182,6 +182,39 @@ TEST(Construction, JointsWithSupportsHaveTheAgeOfTheirBlocks) {
   EXPECT_EQ(built.failures.back().at("block"), "2") << "block 1 has hardened";
 }
 
+// The haunches of an arch on mortar rise together: each stage is symmetrical, its joints have the same age on
+// both sides, and the last one closes the crown. Joints of frames keep the rings of the assembly.
+TEST(Construction, HaunchesOfAnArchCarryTheSame) {
+  constexpr int kVoussoirs = 9;
+  Assembly arch = testing::make_arch({.voussoirs = kVoussoirs});
+  arch.sheets = {{.name = "arch", .num_rings = kVoussoirs, .thrust_lines = Sheet::ThrustLines::one}};
+  Case scene = course_case(0.0, 0.6);
+  StagedConstruction& staged = scene.analysis.staged;
+  staged.unit = StagedConstruction::Unit::ring;
+  staged.first_ring = 0;
+  scene.joints.strength = {.tension = 1e6, .cohesion = 1e6};
+  staged.curing = {{0.0, testing::joint_law(0.6, 2e5)}, {2.0, testing::joint_law(0.6, 1e6)}};
+  for (CuringMortar& row : staged.curing) row.law.tension = row.law.cohesion;
+  staged.curing.front().law.normal = 1e-8;
+  staged.curing.back().law.normal = 1e-10;
+  const Built built = build(scene, arch);
+  ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  ASSERT_EQ(built.stages.size(), 5u);
+  EXPECT_EQ(built.stages[0].at("laid"), "2");
+  EXPECT_EQ(built.stages[4].at("laid"), "1");
+  for (const Frame& frame : built.frames) {
+    const double weight = arch.blocks[1].mass * testing::kG;
+    for (int k = 0; k < kVoussoirs; ++k)  // joints between blocks k and k + 1, and their images
+      EXPECT_NEAR(testing::normal_force(frame, k, k + 1),
+                  testing::normal_force(frame, kVoussoirs - k, kVoussoirs + 1 - k), 1e-4 * weight)
+          << frame.owner << ", joint " << k;
+    for (int i = 0; i < frame.contacts.size(); ++i)
+      if (frame.contacts.kind[i] == JointKind::bed) {
+        EXPECT_EQ(frame.contacts.ring[i], arch.blocks[frame.contacts.block_b[i]].ring);
+      }
+  }
+}
+
 // Ages of 0 and 1 course, interpolated at 5 days for courses of 5 days.
 TEST(Construction, CuringInterpolatesBetweenAges) {
   StagedConstruction staged;

@@ -38,5 +38,25 @@ TEST(LayingOrder, TeamsLayEqualArcsInTheOrderOfTheCase) {
   EXPECT_EQ(stages.size(), 7u);
 }
 
+// The rings of an arch run from x > 0 to x < 0. It rises from both springings, here on two courses of a wall.
+TEST(LayingOrder, AnArchRisesFromBothSpringings) {
+  for (const int voussoirs : {4, 5}) {
+    Assembly arch = testing::make_arch({.voussoirs = voussoirs});  // blocks 1, 2, ...
+    for (Block& block : arch.blocks)
+      if (!block.fixed) block.ring += 2;
+    arch.sheets = {
+        {.name = "wall", .num_rings = 2},
+        {.name = "arch", .first_ring = 2, .num_rings = voussoirs, .thrust_lines = Sheet::ThrustLines::one}};
+    const std::vector<LaidBlocks> stages = laying_order(arch, StagedConstruction{}, 2, 1 + voussoirs);
+    ASSERT_EQ(static_cast<int>(stages.size()), (voussoirs + 1) / 2);
+    EXPECT_EQ(stages[0].blocks, (std::vector<int>{1, voussoirs}));
+    EXPECT_EQ(stages[0].ring, 2);
+    EXPECT_EQ(stages[1].blocks, (std::vector<int>{2, voussoirs - 1}));
+    if (voussoirs == 5) {
+      EXPECT_EQ(stages[2].blocks, (std::vector<int>{3})) << "the key";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace cupola::laying_order_test
