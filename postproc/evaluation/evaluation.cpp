@@ -15,6 +15,7 @@
 #include "assembly/model/thickness.hpp"
 #include "postproc/evaluation/meridians.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
+#include "postproc/mechanics/plane_contacts.hpp"
 
 namespace cupola {
 namespace {
@@ -166,7 +167,8 @@ void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
   if (e->last.frame.role == FrameRole::mechanism) e->gives_way = motion_of(e->last.frame, e->last.joints);
   if (!e->summary.critical || e->times.size() < 2) return;
   try {
-    const Frame frame = results.read_frame(1);
+    Frame frame = results.read_frame(1);
+    if (is_plane(e->summary)) spread_across_plane(&frame.contacts);
     if (frame.role == FrameRole::mechanism)
       e->gives_way = motion_of(frame, joint_wrenches(e->assembly, frame.contacts, e->shell));
   } catch (const InputError& error) {
@@ -292,6 +294,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
+  if (is_plane(e.summary)) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
   const Loads& loads = e.acting;

@@ -48,7 +48,7 @@ void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::strin
 /// Couple lengths of two kinds of resultants, which differ: a strip adds parts of several blocks.
 std::string couple_text(const Evaluation& e, const PostSummary& s) {
   std::string text = "The largest couple length of the wrench on a block from the course below is " +
-                     length_text(s.largest_couple_length_m.value_or(0.0));
+                     length_text(*s.largest_couple_length_m);
   if (e.meridians.empty()) return text + ".";
   double strips = 0.0;
   for (const MeridianEvaluation& m : e.meridians) strips = std::max(strips, m.thrust.largest_couple_length());
@@ -103,7 +103,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
         "The resultant in the rib is on average {:.3f} times that at mid-sail, and between {:.2f} "
         "and {:.2f} times on a single bed (compliance per {}).",
         *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
-  if (!e.rings.empty()) out.push_back(couple_text(e, s));
+  if (!e.rings.empty() && s.largest_couple_length_m) out.push_back(couple_text(e, s));
   out.push_back(friction_text(e, s));
   if (s.mean_kern_use)
     out.push_back(

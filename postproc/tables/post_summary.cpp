@@ -13,6 +13,7 @@
 #include "assembly/base/variant.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/evaluation/margin.hpp"
+#include "postproc/mechanics/plane_contacts.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
@@ -183,7 +184,8 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     *s->crack_length_m += crack.extent;
     raise(&s->widest_crack_m, crack.widest_gap);
   }
-  for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
+  if (!is_plane(e.summary))  // where no couple turns about the force
+    for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
   if (!e.rings.empty() && e.rings.front().blocks > 0 && e.summary.weight_N > 0.0)
     s->thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
   if (e.rib_over_mid_sail) {
@@ -218,6 +220,7 @@ PostSummary post_summary(const Evaluation& e) {
   s.max_displacement_m = e.summary.max_displacement_m;
   s.compliance_per = to_string(e.scene.joints.compliance.per);
   s.points_per_base_joint = points_per_base_joint(e.last.joints);
+  if (is_plane(e.summary) && s.points_per_base_joint) *s.points_per_base_joint /= 2.0;  // spread over two
   s.ranges = e.summary.ranges;
   if (at_rest(e)) add_equilibrium(e, &s);
   return s;
