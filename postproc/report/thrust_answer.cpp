@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/evaluation/thrust.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/answers.hpp"
@@ -61,26 +62,10 @@ double length_of(const Evaluation& e, const Sheet& sheet, const std::vector<Reac
   return std::max(high - low, 0.0);
 }
 
-/// The uppermost sheets of the stacks that push outwards, the last first.
-std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
-  std::vector<const Sheet*> pushing;
-  const std::vector<Sheet>& sheets = e.assembly.sheets;
-  for (size_t i = sheets.size(); i-- > 0;)
-    if ((i + 1 == sheets.size() || !sheets[i + 1].on_previous) && sheets[i].num_rings > 0 &&
-        sheets[i].thrust_lines != Sheet::ThrustLines::none)
-      pushing.push_back(&sheets[i]);
-  return pushing;
-}
-
 /// "14.1 kN/m over 5 m of support"; "" where the length is unknown.
 std::string per_metre(double thrust, double length) {
   if (!(length > 0.0)) return "";
   return fmt::format("{}/m over {} of support", force_text(thrust / length), length_text(length));
-}
-
-/// The cut under the lowest course of the stack of a sheet.
-const RingSum& base_of(const Evaluation& e, const Sheet& sheet) {
-  return e.rings.at(e.assembly.stack_of(sheet.first_ring).first);
 }
 
 /// The cut under the lowest course whose intrados leans, where a vault springs from its walls; null if all
@@ -161,14 +146,29 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
           detail};
 }
 
+bool alike(double a, double b) {
+  return std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b));
+}
+
 /// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
 std::string spread_over(const std::vector<Reaction>& supports) {
   if (supports.size() < 2) return "";
   const auto [lowest, highest] = std::ranges::minmax(supports, {}, &Reaction::outward);
-  if (highest.outward - lowest.outward <= 1e-3 * std::abs(highest.outward))
+  if (alike(lowest.outward, highest.outward))
     return fmt::format("{} on each of {}", force_text(highest.outward), counted(supports.size(), "support"));
   return fmt::format("{} to {}, depending on the support",
                      lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
+}
+
+/// The thrust per metre of support; of an arch, `other` is that at its second springing.
+std::string along_supports(const Evaluation& e, const Sheet& shell, double thrust,
+                           const std::optional<double>& other) {
+  // Joints of a smaller extent do not have the length of the supports.
+  if (e.summary.critical && e.summary.critical->parameter == "joint_extent") return "";
+  const double most = other ? std::max(thrust, *other) : thrust;
+  const std::string along = per_metre(most, length_of(e, shell, thrusting(e, shell)));
+  if (along.empty() || !other) return along;
+  return (alike(thrust, *other) ? "on each side, " : "at most ") + along;
 }
 
 /// The thrusts of further stacks.
@@ -197,32 +197,33 @@ std::string doubt_of(const Evaluation& e) {
 
 std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (const ForceRange* range = range_of_thrust(e)) return thrust_of_range(e, *range);
+  const std::optional<double> found = at_rest(e) ? outward_thrust(e) : std::nullopt;
+  if (!found || (*found == 0.0 && is_stage(e.last.frame.role)))
+    return std::nullopt;  // the course laid last rests on others
+  const double thrust = *found;
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
-  if (!at_rest(e) || pushing.empty() || e.rings.empty()) return std::nullopt;
   const Sheet& shell = *pushing.front();
   const bool alone = pushing.size() == 1;
   const std::vector<Reaction> supports = thrusting(e, shell);
-  const double thrust = base_of(e, shell).radial_thrust;
-  if (thrust == 0.0 && is_stage(e.last.frame.role))
-    return std::nullopt;  // the course laid last rests on others
   std::vector<std::string> details;
   const auto add = [&details](std::string text) {
     if (!text.empty()) details.push_back(std::move(text));
   };
-  if (thrust < 0.0) add("negative: inwards");
-  // Joints of a smaller extent do not have the length of the supports.
-  const bool shrunk = e.summary.critical && e.summary.critical->parameter == "joint_extent";
-  std::string along = shrunk ? "" : per_metre(thrust, length_of(e, shell, supports));
-  if (is_arch(e) && !along.empty()) along = "on each side, " + along;
+  const std::optional<double> other = thrust_of_other_side(e, shell);
+  const bool differ = other && !alike(thrust, *other);
+  if (thrust < 0.0 || (differ && *other < 0.0)) add("negative: inwards");
+  std::string along = along_supports(e, shell, thrust, other);
   if (!alone) along = fmt::format("of {}{}{}", shell.name, along.empty() ? "" : ", ", along);
+  if (differ) add("at its springings, the one in the direction of x first");
   add(std::move(along));
   add(level_text(e, shell));
   add(spread_over(supports));
   if (alone && e.summary.weight_N > 0.0)
     add(fmt::format("{:.3g} of the weight", thrust / e.summary.weight_N));
-  for (std::string& other : thrusts_of_others(e, pushing)) add(std::move(other));
+  for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(doubt_of(e));
-  return KeyNumber{"Outward thrust", force_text(thrust), fmt::format("{}", fmt::join(details, "; "))};
+  return KeyNumber{"Outward thrust", force_text(thrust) + (differ ? " and " + force_text(*other) : ""),
+                   fmt::format("{}", fmt::join(details, "; "))};
 }
 
 }  // namespace cupola

@@ -13,6 +13,7 @@
 #include "assembly/base/variant.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/evaluation/margin.hpp"
+#include "postproc/evaluation/thrust.hpp"
 #include "postproc/mechanics/plane_contacts.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
@@ -186,8 +187,8 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   }
   if (!is_plane(e.summary))  // where no couple turns about the force
     for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
-  if (!e.rings.empty() && e.rings.front().blocks > 0 && e.summary.weight_N > 0.0)
-    s->thrust_over_weight = e.rings.front().radial_thrust / e.summary.weight_N;
+  if (const auto thrust = outward_thrust(e); thrust && e.summary.weight_N > 0.0)
+    s->thrust_over_weight = *thrust / e.summary.weight_N;
   if (e.rib_over_mid_sail) {
     s->rib_over_mid_sail = e.rib_over_mid_sail->mean;
     s->rib_over_mid_sail_smallest = e.rib_over_mid_sail->smallest;

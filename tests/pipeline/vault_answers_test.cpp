@@ -10,6 +10,7 @@
 #include "assembly/case/bundled.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/files/summary_file.hpp"
+#include "postproc/evaluation/thrust.hpp"
 #include "postproc/mechanics/cracks.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/tables/post_summary.hpp"
@@ -243,6 +244,9 @@ TEST(VaultAnswers, TheThrustOnPiersCountsEveryJointOfTheSpringers) {
   }
   EXPECT_GT(sum, 0.1 * e.summary.weight_N);
   EXPECT_NEAR(e.rings.at(first).radial_thrust, sum, 1e-9 * e.summary.weight_N);
+  // The thrust of a model is that of its last member, not of its first: here the buttresses.
+  EXPECT_NEAR(post_summary(e).thrust_over_weight.value() * e.summary.weight_N, sum,
+              1e-9 * e.summary.weight_N);
   Case range = scene;
   range.analysis.type = AnalysisType::range;
   const ForceRange thrust = run_range(range, e.assembly, {}).value().ranges.at(0);
@@ -251,6 +255,29 @@ TEST(VaultAnswers, TheThrustOnPiersCountsEveryJointOfTheSpringers) {
   EXPECT_NEAR(thrust.chosen.value(), sum, 1e-5 * sum);
   EXPECT_LE(thrust.min.value.value(), sum);
   EXPECT_GE(thrust.max.value.value(), sum);
+}
+
+// Horizontal forces of 2 kN in the direction of x, one on each of two blocks: the springing at x > 0 bears
+// 4 kN more than the other.
+TEST(VaultAnswers, TheThrustOfAnArchUnderHorizontalLoadHasTwoValues) {
+  const char* kJoints = "}\njoints: {friction: 0.8, compliance: {per: area}}\n";
+  const auto thrust_of = [kJoints](const std::string& rest) {
+    const ProgramFolder folder;
+    const Evaluation e =
+        solve_and_evaluate(read(folder, arch_case({11, 2.0, 2.8}, 1.0, 1, rest + kJoints)), folder);
+    EXPECT_TRUE(at_rest(e)) << e.summary.message;
+    const double here = outward_thrust(e).value();
+    const double there = thrust_of_other_side(e, e.assembly.sheets.front()).value();
+    return std::pair(here - there, thrust_answer(e).value());
+  };
+  const auto [none, even] = thrust_of("");
+  EXPECT_NEAR(none, 0.0, 1.0);
+  EXPECT_NE(even.detail.find("on each side"), std::string::npos) << even.detail;
+  const auto [difference, pushed] =
+      thrust_of(", forces: [{block: 4, force: [2000, 0, 0]}, {block: 8, force: [2000, 0, 0]}]");
+  EXPECT_NEAR(difference, 4000.0, 1.0);  // N; the solver's tolerance is 1e-8 of a block's weight
+  EXPECT_EQ(pushed.detail.find("on each side"), std::string::npos) << pushed.detail;
+  EXPECT_NE(pushed.value.find(" and "), std::string::npos) << pushed.value;
 }
 
 // Where a barrel stands on supports and on other members, its range counts both, as the statics do.
