@@ -20,6 +20,27 @@ int reference_ring(const Assembly& assembly, const Joint& joint) {
   return a.fixed ? b.ring : a.ring;
 }
 
+/// Tangential part of the force of a joint over the largest possible one. That of a point follows from its own
+/// use; of points without shear it is taken in proportion to normal force, in joints with strength to area.
+double friction_use(const ContactTable& contacts, std::vector<int>::const_iterator begin,
+                    std::vector<int>::const_iterator end) {
+  constexpr double kNoShear = 1e-6;  // of a point's limit, which then has no digits left
+  Vec3 shear = Vec3::Zero();
+  double limit = 0.0, known = 0.0, weights = 0.0;
+  for (auto row = begin; row != end; ++row) {
+    const double n = contacts.normal_force[*row], use = contacts.friction_use[*row];
+    const double weight = contacts.strength_use.empty() ? n : contacts.area[*row];
+    const Vec3 t = contacts.force[*row] - n * contacts.normal[*row];
+    shear += t;
+    weights += weight;
+    if (!(use > kNoShear)) continue;
+    limit += t.norm() / use;
+    known += weight;
+  }
+  if (limit == 0.0) return 0.0;
+  return shear.norm() / (known > 0.0 ? limit * weights / known : limit);
+}
+
 /// Sums the forces of the joint over its contact points, `rows` of the contacts.
 void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
   const auto begin = rows.begin() + joint->contact_start;
@@ -36,14 +57,11 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->patch = planar_hull(points, normal.normalized());
 
   Vec3 weighted = Vec3::Zero();
-  double friction = 0.0, weights = 0.0, area = 0.0, open_area = 0.0, damaged_area = 0.0;
+  double area = 0.0, open_area = 0.0, damaged_area = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row];
     joint->normal_force += n;
     weighted += n * (contacts.point[*row] - joint->patch.centroid);
-    const double weight = contacts.strength_use.empty() ? n : contacts.area[*row];
-    friction += weight * contacts.friction_use[*row];
-    weights += weight;
     area += contacts.area[*row];
     joint->centroid += contacts.area[*row] * contacts.point[*row];
     if (std::abs(n) <= kNoPressure * contacts.force[*row].norm()) open_area += contacts.area[*row];
@@ -58,7 +76,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->centroid = area > 0.0 ? Vec3(joint->centroid / area) : joint->patch.centroid;
   joint->centre_of_pressure = joint->patch.centroid;
   if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
-  if (weights > 0.0) joint->friction_use = friction / weights;
+  joint->friction_use = friction_use(contacts, begin, end);
   if (area > 0.0) joint->open_share = open_area / area;
   if (area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / area;
   joint->wrench.point = joint->centre_of_pressure;

@@ -28,8 +28,8 @@ struct JointWrench : Joint {
   double eccentricity = 0.0;               ///< m, distance of the centre of pressure from the patch centroid
   double edge_distance = 0.0;              ///< m, distance of the centre of pressure from the outline
   double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern
-  /// Mean of the points, weighted by normal force: (sum |t_i| / mu) / sum n_i. In joints with strength
-  /// weighted by area. 1: every point slides.
+  /// |tangential force| / (cohesion x area + mu x normal force), of the resultant: it does not depend on how
+  /// its points share the force, and does not count turning about the normal. 1: the joint slides.
   double friction_use = 0.0;
   double opening = 0.0;           ///< m, largest gap of its points, >= 0
   double open_share = 0.0;        ///< share of the area whose points carry no normal force

@@ -114,7 +114,7 @@ const Columns<JointWrench>& joint_columns() {
        &J::eccentricity},
       {"edge_distance_m", "m", "distance of the centre of pressure from the joint's edge", &J::edge_distance},
       {"kern_use", "", "kern utilisation; up to 1 the force lies in the kern", &J::kern},
-      {"friction_use", "", "friction utilisation; 1: every point slides", &J::friction_use},
+      {"friction_use", "", "tangential force over the largest possible one; 1: the joint slides", &J::friction_use},
       {"opening_m", "m", "largest gap of its points", &J::opening},
       {"open_share", "", "share of the area that carries no normal force", &J::open_share},
       {"slip_m", "m", "largest accumulated slip of its points", &J::slip},

@@ -1,0 +1,55 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "postproc/mechanics/joint_wrenches.hpp"
+#include "tests/postproc/models.hpp"
+
+namespace cupola::friction_use_test {
+namespace {
+
+constexpr double kMu = 0.7, kArea = 0.24;  // m2, of each of four points
+
+/// The friction use of a single bed with these normal forces (N) and shears at its four corners.
+double use_of(const std::array<double, 4>& normal, const std::array<Vec3, 4>& shear, double cohesion = 0.0) {
+  const Assembly a = test::column(1);
+  ContactTable c = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4).contacts;
+  for (size_t i = 0; i < 4; ++i) {
+    c.normal_force[i] = normal[i];
+    c.force[i] = Vec3(0, 0, normal[i]) + shear[i];
+    const double limit = cohesion * kArea + kMu * normal[i];
+    c.friction_use[i] = limit > 0.0 ? shear[i].norm() / limit : 0.0;
+  }
+  if (cohesion > 0.0) c.strength_use.assign(4, 0.1);
+  return joint_wrenches(a, c, shell_of(a, Vec3::UnitZ())).wrenches[0].friction_use;
+}
+
+// Shears of 40 N against each other carry nothing: the joint transmits 4 x 7 N of 0.7 x 400 N.
+TEST(FrictionUse, DoesNotCountShearsThatOpposeEachOther) {
+  const Vec3 x(7, 0, 0), y(0, 40, 0);
+  EXPECT_NEAR(use_of({100, 100, 100, 100}, {x + y, x - y, x + y, x - y}), 0.1, 1e-12);
+  EXPECT_NEAR(use_of({100, 100, 100, 100}, {y, -y, y, -y}), 0.0, 1e-12);
+}
+
+// Statics does not say which points of a joint carry its shear: its use is the same for all of them.
+TEST(FrictionUse, DoesNotDependOnWhichPointsCarryTheShear) {
+  const Vec3 none = Vec3::Zero(), x(35, 0, 0);
+  for (const double cohesion : {0.0, 200.0}) {
+    const double use = 140.0 / (4.0 * cohesion * kArea + kMu * 400.0);
+    EXPECT_NEAR(use_of({100, 100, 100, 100}, {x, x, x, x}, cohesion), use, 1e-12);
+    EXPECT_NEAR(use_of({100, 100, 100, 100}, {2 * x, 2 * x, none, none}, cohesion), use, 1e-12);
+  }
+  EXPECT_NEAR(use_of({300, 100, 0, 0}, {none, 2 * x, none, none}), 70.0 / (kMu * 400.0), 1e-12);
+}
+
+// With cohesion, points without pressure count, too.
+TEST(FrictionUse, IsOneWhereAllPointsSlide) {
+  const double cohesion = 500.0;
+  std::array<Vec3, 4> shear;
+  const std::array<double, 4> normal{400, 0, 100, 0};
+  for (size_t i = 0; i < 4; ++i) shear[i] = (cohesion * kArea + kMu * normal[i]) * Vec3(0.6, 0.8, 0.0);
+  EXPECT_NEAR(use_of(normal, shear, cohesion), 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace cupola::friction_use_test
