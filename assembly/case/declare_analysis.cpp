@@ -152,11 +152,13 @@ void declare_accuracy(Section& s, Analysis& analysis) {
                       "accuracy of the answer; every preset but custom sets the tolerance",
                       declare_wrench_error);
   if (analysis.accuracy.preset == custom) {
-    constexpr double kOfStages = 1e-5;  // what a verdict requires
-    if (analysis.type == AnalysisType::staged && !s.gives("tolerance")) analysis.tolerance = kOfStages;
+    // Of stages it is what a verdict requires; in motions the time step decides on the error.
+    constexpr double kOfManySolves = 1e-5;
+    const bool many = analysis.type == AnalysisType::staged || analysis.type == AnalysisType::dynamic;
+    if (many && !s.gives("tolerance")) analysis.tolerance = kOfManySolves;
     s.number("tolerance", analysis.tolerance, rule,
              "static: largest equilibrium residual accepted; staged: the same, 1e-5 if not given; dynamic: "
-             "largest relative momentum residual of a step");
+             "largest relative momentum residual of a step, 1e-5 if not given");
   } else {
     analysis.tolerance = preset_tolerance(analysis.accuracy.preset, analysis.type);
     s.settled_number("tolerance", analysis.tolerance, rule);

@@ -133,6 +133,7 @@ TEST(ReadCase, StagesHaveAToleranceOfTheirOwnUnlessOneIsGiven) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("wall.yaml", kWall);
   EXPECT_EQ(read_case(path, {"analysis.type=staged"}).analysis.tolerance, 1e-5);
+  EXPECT_EQ(read_case(path, {"analysis.type=dynamic"}).analysis.tolerance, 1e-5);
   EXPECT_EQ(read_case(path, {"analysis.type=staged", "analysis.tolerance=1e-9"}).analysis.tolerance, 1e-9);
   EXPECT_EQ(read_case(path).analysis.tolerance, Analysis{}.tolerance);
 }
