@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "assembly/case/declare.hpp"
 #include "assembly/files/time_table.hpp"
 
@@ -24,22 +26,43 @@ void declare_pair(Section& s, PairTie& tie) {
   s.rule(tie.slack == 0.0 || tie.prestress == 0.0, "slack", "a tie has either slack or prestress");
 }
 
+/// The ground goes on with the velocity at the end of an accelerogram.
+void expect_rest_at_end(Section& s, const BaseMotion& motion, const TableInTime& acceleration) {
+  constexpr double kSmall = 0.05;  // of the peak: what corrected records leave, and no drift of the model
+  const DisplacementInTime ground = integrate_twice(acceleration);
+  double peak = 0.0;
+  for (const double velocity : ground.velocity) peak = std::max(peak, std::abs(velocity));
+  const double scale = motion.direction.norm();
+  s.expect(
+      {" (velocity at the end)", scale * std::abs(ground.velocity.back()), "m/s", 0.0, scale * kSmall * peak,
+       "",
+       fmt::format("the ground keeps this velocity after the end of {}: correct the baseline of the record, "
+                   "or use a longer one",
+                   motion.file)});
+}
+
 void declare_base_motion(Section& s, BaseMotion& motion) {
   s.file("file", motion.file, "two columns: time (s) and value (m or m/s2)");
-  s.choice("quantity", motion.quantity, "quantity in the second column");
+  s.choice(
+      "quantity", motion.quantity,
+      "quantity in the second column; an acceleration is integrated from rest, without baseline correction, "
+      "and is 0 after its end");
   s.vector3("direction", motion.direction, {},
             "direction of the motion; its length scales the values of the file");
   s.rule(!motion.file.empty(), "file", "must be given: a file with the columns time and value");
   if (motion.file.empty()) return;  // while the keys are described
+  const TableInTime table = read_time_table(motion.file);
   double peak = 0.0;
-  for (const double value : read_time_table(motion.file).values) peak = std::max(peak, std::abs(value));
+  for (const double value : table.values) peak = std::max(peak, std::abs(value));
   peak *= motion.direction.norm();
-  if (motion.quantity == BaseMotion::Quantity::acceleration)
-    s.expect({" (largest acceleration)", peak, "m/s2", 0.1, 50.0, "in g? Multiply direction by 9.81",
-              "in cm/s2 (gal)? Multiply direction by 0.01"});
-  else
+  if (motion.quantity == BaseMotion::Quantity::displacement) {
     s.expect({" (largest displacement)", peak, "m", 1e-5, 10.0, kKilometres,
               "in mm or cm? Multiply direction by 0.001 or 0.01"});
+    return;
+  }
+  s.expect({" (largest acceleration)", peak, "m/s2", 0.1, 50.0, "in g? Multiply direction by 9.81",
+            "in cm/s2 (gal)? Multiply direction by 0.01"});
+  expect_rest_at_end(s, motion, table);
 }
 
 void declare_sector(Section& s, Sector& sector) {

@@ -24,15 +24,54 @@ double at(const HarmonicInTime& wave, double time) {
                   wave.phase_deg * std::numbers::pi / 180.0);
 }
 
+/// Index of the last of some increasing times that is not after `time`, which is not before the first.
+size_t interval_of(const std::vector<double>& times, double time) {
+  return static_cast<size_t>(std::upper_bound(times.begin(), times.end(), time) - times.begin()) - 1;
+}
+
 double at(const TableInTime& table, double time) {
   CUPOLA_ASSERT(table.times.size() == table.values.size());
   if (table.times.empty()) return 0.0;
   if (time <= table.times.front()) return table.values.front();
   if (time >= table.times.back()) return table.values.back();
-  const auto after = std::upper_bound(table.times.begin(), table.times.end(), time);
-  const auto i = after - table.times.begin();
-  const double share = (time - table.times[i - 1]) / (table.times[i] - table.times[i - 1]);
-  return table.values[i - 1] + share * (table.values[i] - table.values[i - 1]);
+  const size_t i = interval_of(table.times, time);
+  const double share = (time - table.times[i]) / (table.times[i + 1] - table.times[i]);
+  return table.values[i] + share * (table.values[i + 1] - table.values[i]);
+}
+
+/// x = x_i + v_i s + (a_i / 2 + (a_(i+1) - a_i) s / (6 dt)) s^2 with s = t - t_i.
+double at(const DisplacementInTime& motion, double time) {
+  const TableInTime& table = motion.acceleration;
+  if (table.times.empty() || time <= table.times.front()) return 0.0;
+  if (time >= table.times.back())
+    return motion.displacement.back() + (time - table.times.back()) * motion.velocity.back();
+  const size_t i = interval_of(table.times, time);
+  const double s = time - table.times[i];
+  const double jerk = (table.values[i + 1] - table.values[i]) / (table.times[i + 1] - table.times[i]);
+  return motion.displacement[i] + s * (motion.velocity[i] + s * (table.values[i] / 2.0 + s * jerk / 6.0));
+}
+
+bool changes(const ConstantInTime&) {
+  return false;
+}
+
+bool changes(const RampInTime& ramp) {
+  return at(ramp, 0.0) != ramp.to;
+}
+
+bool changes(const HarmonicInTime&) {
+  return true;
+}
+
+bool changes(const TableInTime& table) {
+  const double start = at(table, 0.0);
+  for (size_t i = 0; i < table.times.size(); ++i)
+    if (table.times[i] > 0.0 && table.values[i] != start) return true;
+  return false;
+}
+
+bool changes(const DisplacementInTime& motion) {
+  return motion.velocity.back() != 0.0 || changes(motion.acceleration);
 }
 
 }  // namespace
@@ -41,17 +80,21 @@ double factor_at(const TimeFunction& function, double time) {
   return std::visit([time](const auto& kind) { return at(kind, time); }, function);
 }
 
-TableInTime integrate_twice(const TableInTime& acceleration) {
-  TableInTime displacement = acceleration;
-  double velocity = 0.0;
-  displacement.values.assign(acceleration.times.size(), 0.0);
-  for (size_t i = 1; i < acceleration.times.size(); ++i) {
-    const double dt = acceleration.times[i] - acceleration.times[i - 1];
-    const double a0 = acceleration.values[i - 1], a1 = acceleration.values[i];
-    displacement.values[i] = displacement.values[i - 1] + velocity * dt + (2.0 * a0 + a1) * dt * dt / 6.0;
-    velocity += 0.5 * (a0 + a1) * dt;
+bool varies(const TimeFunction& function) {
+  return std::visit([](const auto& kind) { return changes(kind); }, function);
+}
+
+DisplacementInTime integrate_twice(const TableInTime& acceleration) {
+  const std::vector<double>&times = acceleration.times, &a = acceleration.values;
+  DisplacementInTime motion{acceleration, std::vector<double>(times.size(), 0.0),
+                            std::vector<double>(times.size(), 0.0)};
+  for (size_t i = 1; i < times.size(); ++i) {
+    const double dt = times[i] - times[i - 1];
+    motion.velocity[i] = motion.velocity[i - 1] + 0.5 * (a[i - 1] + a[i]) * dt;
+    motion.displacement[i] =
+        motion.displacement[i - 1] + motion.velocity[i - 1] * dt + (2.0 * a[i - 1] + a[i]) * dt * dt / 6.0;
   }
-  return displacement;
+  return motion;
 }
 
 }  // namespace cupola

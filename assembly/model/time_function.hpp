@@ -31,13 +31,25 @@ struct TableInTime {
   std::vector<double> values;  ///< one per time
 };
 
+/// Displacement (m) under an acceleration that is linear between the points of a table and 0 beyond them:
+/// cubic between them, and at constant velocity after the last, so that the velocity never jumps.
+/// integrate_twice() fills it.
+struct DisplacementInTime {
+  TableInTime acceleration;          ///< m/s2
+  std::vector<double> velocity;      ///< m/s, one per time
+  std::vector<double> displacement;  ///< m, one per time
+};
+
 /// Variation in time of a load, a support motion or a friction coefficient, as a factor on its full value.
-using TimeFunction = std::variant<ConstantInTime, RampInTime, HarmonicInTime, TableInTime>;
+using TimeFunction =
+    std::variant<ConstantInTime, RampInTime, HarmonicInTime, TableInTime, DisplacementInTime>;
 
 double factor_at(const TimeFunction& function, double time);
 
-/// Ground displacement (m) for a ground acceleration (m/s2, linear between its points), starting from rest,
-/// integrated exactly at the times of the table. Without baseline correction.
-TableInTime integrate_twice(const TableInTime& acceleration);
+/// True if the factor at some time after 0 differs from that at the time 0.
+bool varies(const TimeFunction& function);
+
+/// Motion that starts from rest at the first time of the table. Without baseline correction.
+DisplacementInTime integrate_twice(const TableInTime& acceleration);
 
 }  // namespace cupola

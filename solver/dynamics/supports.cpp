@@ -40,14 +40,20 @@ Eigen::Quaterniond rotation_of(const Vec3& turn) {
 
 }  // namespace
 
+GroundMotion make_ground_motion(const Case& scene) {
+  if (!scene.supports.base_motion) return {};
+  const BaseMotion& base = *scene.supports.base_motion;
+  const TableInTime table = read_time_table(base.file);
+  if (base.quantity == BaseMotion::Quantity::displacement) return {base.direction, table};
+  return {base.direction, integrate_twice(table)};
+}
+
 std::vector<SupportMotion> make_support_motions(const Case& scene, const Assembly& assembly) {
   std::vector<SupportMotion> motions;
   if (scene.supports.base_motion) {
-    const BaseMotion& base = *scene.supports.base_motion;
-    TableInTime table = read_time_table(base.file);
-    if (base.quantity == BaseMotion::Quantity::acceleration) table = integrate_twice(table);
+    const GroundMotion ground = make_ground_motion(scene);
     for (int block : fixed_blocks(assembly))
-      motions.push_back({block, base.direction, Vec3::Zero(), Vec3::Zero(), table});
+      motions.push_back({block, ground.direction, Vec3::Zero(), Vec3::Zero(), ground.time});
   }
   for (const SupportMove& move : scene.supports.moves)
     for (const RegionBlock& b : blocks_of_region(move.region, assembly, true, "supports.moves"))

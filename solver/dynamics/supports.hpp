@@ -16,6 +16,17 @@ struct SupportMotion {
   TimeFunction time;
 };
 
+/// Motion of the ground, which all supports follow. Displacements and speeds in results are relative to it.
+struct GroundMotion {
+  Vec3 direction = Vec3::Zero();  ///< m per unit of the factor; zero: the ground does not move
+  TimeFunction time;
+
+  Vec3 displacement(double at) const { return factor_at(time, at) * direction; }  ///< m
+};
+
+/// Reads supports.base_motion. Throws InputError for a file that cannot be read.
+GroundMotion make_ground_motion(const Case& scene);
+
 /// Throws InputError for blocks that do not exist or are free, and for a motion file that cannot be read.
 std::vector<SupportMotion> make_support_motions(const Case& scene, const Assembly& assembly);
 

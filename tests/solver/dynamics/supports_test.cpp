@@ -1,5 +1,6 @@
 #include "solver/dynamics/supports.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -92,10 +93,27 @@ TEST(BaseMotion, ReadsDisplacementsAndIntegratesAccelerations) {
   ASSERT_EQ(table.times.size(), 3u);
   EXPECT_DOUBLE_EQ(factor_at(TimeFunction(table), 0.75), 2.25);
   EXPECT_DOUBLE_EQ(factor_at(TimeFunction(table), 9.0), 3.0);
-  // a(t) = 3 t: d = t^3 / 2.
-  const TableInTime displacement = integrate_twice(table);
-  EXPECT_DOUBLE_EQ(displacement.values[1], 0.0625);
-  EXPECT_DOUBLE_EQ(displacement.values[2], 0.5);
+  // a(t) = 3 t: d = t^3 / 2, at the points of the table and between them.
+  const TimeFunction displacement = integrate_twice(table);
+  for (const double t : {0.0, 0.25, 0.5, 0.7, 1.0})
+    EXPECT_NEAR(factor_at(displacement, t), 0.5 * t * t * t, 1e-15) << t << " s";
+  EXPECT_DOUBLE_EQ(factor_at(displacement, 2.0), 0.5 + 1.5) << "on at 1.5 m/s after the end of the record";
+}
+
+// A lift whose accelerometer has four samples a second. Its velocity does not jump at the samples, so that the
+// reaction never exceeds m (g + a).
+TEST(BaseMotion, CoarseAccelerogramGivesNoJolts) {
+  const std::string path = ::testing::TempDir() + "/lift.csv";
+  std::ofstream(path) << "0, 0\n0.25, 2\n0.5, 2\n0.75, 0\n";
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
+  const double a = 2.0, h = 1e-3;
+  Case scene = make_case(0.3, 1e-12, h);
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::acceleration, Vec3::UnitZ()};
+  testing::AccountedSimulation simulation(scene, assembly);
+  double largest = 0.0;
+  for (int step = 0; step < 700; ++step)
+    largest = std::max(largest, simulation.advance().balance.support_reaction.z());
+  EXPECT_NEAR(largest / (1000.0 * (kG + a)), 1.0, 1e-6);
 }
 
 TEST(BaseMotion, ErrorsStateLineAndRule) {
