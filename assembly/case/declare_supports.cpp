@@ -164,8 +164,10 @@ void declare_restraint(Section& s, Restraint& restraint) {
 }
 
 void declare_supports(Section& s, Supports& supports) {
-  s.optional_section("base_motion", supports.base_motion, "ground motion, followed by all fixed blocks",
-                     declare_base_motion);
+  s.optional_section(
+      "base_motion", supports.base_motion,
+      "ground motion, followed by all fixed blocks; displacements and speeds are relative to it",
+      declare_base_motion);
   s.list("moves", supports.moves, "displacements imposed on fixed blocks", declare_move);
   s.list("restraints", supports.restraints,
          "points held in one direction, without friction: rollers and props", declare_restraint);

@@ -43,9 +43,10 @@ void strength_fields(Visitor&& visit, Is<ContactTable> auto& c) {
 template <class Visitor>
 void fields(Visitor&& visit, Is<BlockTable> auto& b) {
   visit("quaternion_wxyz", "", "rotation from the orientation in the assembly (4)", b.quaternion_wxyz);
-  visit("velocity_m_per_s", "m/s", "of the centroid (3)", b.velocity);
+  visit("velocity_m_per_s", "m/s", "of the centroid, relative to the ground (3)", b.velocity);
   visit("angular_velocity_rad_per_s", "rad/s", "about world axes (3)", b.angular_velocity);
-  visit("displacement_m", "m", "of the centroid since the assembly (3)", b.displacement);
+  visit("displacement_m", "m", "of the centroid since the assembly, relative to the ground (3)",
+        b.displacement);
 }
 
 template <class Visitor>

@@ -147,9 +147,11 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
       "normal force",
       s.friction_cone_violation);
   visit("max_penetration_m", "m", "largest overlap at a contact", s.max_penetration_m);
-  visit("max_displacement_m", "m", "of a block; not in limit analyses, nor in statics without an equilibrium",
+  visit("max_displacement_m", "m",
+        "of a block relative to the ground; not in limit analyses, nor in statics without an equilibrium",
         s.max_displacement_m);
-  visit("max_speed_m_per_s", "m/s", "of a block at the end; dynamic analyses only", s.max_speed_m_per_s);
+  visit("max_speed_m_per_s", "m/s", "of a block relative to the ground at the end; dynamic analyses only",
+        s.max_speed_m_per_s);
   visit("slipping_contacts", "", "number of loaded contacts on their friction cone", s.slipping_contacts);
   visit("steps", "", "number of steps", s.steps);
   visit("iterations", "", "of the contact method, in total", s.iterations);

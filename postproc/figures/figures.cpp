@@ -14,7 +14,7 @@ namespace {
 using Rows = std::vector<std::vector<double>>;
 
 /// True if the ring's figure shows anything but zeros.
-bool varies(const RingSum& ring) {
+bool shows_anything(const RingSum& ring) {
   return ring.cv_pressure > 0.0 || ring.largest_friction_use > 0.0 || ring.largest_kern > 0.0;
 }
 
@@ -112,7 +112,8 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
   f.name = "history";
   f.title = "Motion over time";
   f.caption =
-      "Largest displacement and speed of a block after each step, and the reaction of the supports over the "
+      "Largest displacement and speed of a block, relative to the ground, after each step, and the reaction "
+      "of the supports over the "
       "weight of the free blocks.";
   f.width = 1000;
   f.height = 700;
@@ -140,7 +141,7 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   if (!at_rest(e)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
     if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
-  if (std::any_of(e.rings.begin(), e.rings.end(), varies)) figures.push_back(ring_figure(e));
+  if (std::any_of(e.rings.begin(), e.rings.end(), shows_anything)) figures.push_back(ring_figure(e));
   if (std::any_of(e.sections.begin(), e.sections.end(), [](const auto& s) { return !s.resultants.empty(); }))
     figures.push_back(levels_figure(e));
   for (const SectionEvaluation& section : e.sections)

@@ -50,11 +50,16 @@ std::string block_text(const Evaluation& e, size_t index) {
                          : fmt::format("block {} in ring {}", index, block.ring);
 }
 
+/// Of displacements and speeds.
+const char* relative_to_ground(const Evaluation& e) {
+  return e.scene.supports.base_motion ? ", relative to the ground" : "";
+}
+
 void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
                          std::vector<KeyNumber>* out) {
   const double threshold = e.scene.analysis.thresholds.displacement;
   out->push_back({"Largest displacement", length_text(farthest_block(e).displacement),
-                  fmt::format("after {:.4g} s", e.last.frame.time)});
+                  fmt::format("after {:.4g} s{}", e.last.frame.time, relative_to_ground(e))});
   const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
     return row.max_displacement > threshold;
   });
@@ -62,7 +67,8 @@ void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& his
     out->push_back({fmt::format("Moved more than {}", length_text(threshold)),
                     fmt::format("at {:.4g} s", first->time), "first block to do so"});
   if (!history.empty())
-    out->push_back({"Fastest block", fmt::format("{:.3g} m/s", history.back().max_speed), "at the end"});
+    out->push_back({"Fastest block", fmt::format("{:.3g} m/s", history.back().max_speed),
+                    fmt::format("at the end{}", relative_to_ground(e))});
 }
 
 void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) {
@@ -90,10 +96,11 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
   const Farthest farthest = farthest_block(e);
   const size_t bodies = count_bodies(e);
   out->push_back(fmt::format(
-      "At the end, {:.4g} s, the largest displacement is {:.3g} m, of {}; {} of {} moved farther than {:g} "
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m{}, of {}; {} of {} moved farther than {:g} "
       "m. The blocks move as {}.",
-      e.last.frame.time, farthest.displacement, block_text(e, farthest.block), count_moving(e, threshold),
-      counted(e.summary.free_blocks, "free block"), threshold, counted(bodies, "body", "bodies")));
+      e.last.frame.time, farthest.displacement, relative_to_ground(e), block_text(e, farthest.block),
+      count_moving(e, threshold), counted(e.summary.free_blocks, "free block"), threshold,
+      counted(bodies, "body", "bodies")));
   if (e.lost_joints.value_or(0) > 0)
     out->push_back(fmt::format("{} that carried force at the start have separated completely.",
                                counted(*e.lost_joints, "joint")));

@@ -84,8 +84,9 @@ std::string collapsed_text(const Evaluation& e) {
   double farthest = 0.0;
   for (const Vec3& displacement : e.last.frame.blocks.displacement)
     farthest = std::max(farthest, displacement.norm());
-  return fmt::format("Within {:.4g} s a block moves by {}; a displacement above {} counts as collapse.",
+  return fmt::format("Within {:.4g} s a block moves by {}{}; a displacement above {} counts as collapse.",
                      e.last.frame.time, length_text(farthest),
+                     e.scene.supports.base_motion ? " relative to the ground" : "",
                      length_text(e.scene.analysis.thresholds.displacement));
 }
 

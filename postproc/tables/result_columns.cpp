@@ -162,7 +162,7 @@ const Columns<BlockRow>& block_columns() {
        [](const B& b) { return b.fields.kern; }},
       {"opening_m", "m", "largest gap at its joints", [](const B& b) { return b.fields.opening; }},
       {"slip_m", "m", "largest accumulated slip at its joints", [](const B& b) { return b.fields.slip; }},
-      {"displacement_{}_m", "m", "displacement of the centroid", &B::displacement},
+      {"displacement_{}_m", "m", "displacement of the centroid, relative to the ground", &B::displacement},
       {"mechanism_group", "", "blocks of one number move as one body", &B::mechanism_group},
       {"couple_{}_Nm", "N m", "couple of the wrench from the ring below, parallel to its force",
        [](const B& b) { return b.axis.couple; }, false},

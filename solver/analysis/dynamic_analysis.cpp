@@ -52,6 +52,7 @@ class DynamicRun {
   Simulation simulation_;
   RunProgress progress_;
   StepReport report_;
+  State seen_;  // from the ground
   Snapshot now_;
 };
 
@@ -92,11 +93,12 @@ void DynamicRun::step() {
   if (progress_.steps == 0) progress_.energy.start = simulation_.energy().total();
   report_ = simulation_.advance(step_limit(scene_, simulation_.state().time));
   CUPOLA_ASSERT(!report_.solve.usable() || simulation_.state().v.allFinite());
-  now_ = take_snapshot(simulation_);
+  seen_ = seen_from_ground(simulation_.model(), simulation_.state(), report_.h);
+  now_ = take_snapshot(simulation_, seen_);
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
   progress_.energy.include(report_);
-  progress_.rest.include(simulation_.model(), simulation_.state(), analysis_.thresholds);
+  progress_.rest.include(simulation_.model(), seen_, analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
   if (now_.speed > StopRules::kSettledSpeed) progress_.calm_since = time;
@@ -167,8 +169,11 @@ bool DynamicRun::frame_is_due(Stop stop) const {
 }
 
 Frame DynamicRun::last_frame() const {
-  Frame frame = make_frame(simulation_.model(), simulation_.state(), simulation_.contacts(), report_.forces,
-                           report_.violations, simulation_.memories(), simulation_.displacements());
+  const Model& model = simulation_.model();
+  State state = simulation_.state();
+  state.v = seen_.v;
+  Frame frame = make_frame(model, state, simulation_.contacts(), report_.forces, report_.violations,
+                           simulation_.memories(), displacements(*model.assembly, seen_));
   set_role(FrameRole::step, "", &frame);
   return frame;
 }
@@ -217,6 +222,8 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.max_speed_m_per_s = largest_speed(last);
   progress_.worst.summarize(&summary);
   judge_motion(analysis_, progress_, report_.solve, &summary);
+  if (scene_.supports.base_motion && summary.status != Status::unconverged)
+    summary.message += ", relative to the ground";
   summary.message += stop_note(stop, analysis_);
   return summary;
 }

@@ -19,6 +19,7 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   model.ties = make_ties(scene, assembly);
   model.ties_yield =
       std::ranges::any_of(model.ties, [](const Tie& tie) { return std::isfinite(tie.yield_force); });
+  model.ground = make_ground_motion(scene);
   model.support_motions = make_support_motions(scene, assembly);
   model.heat = HeatedBlocks(scene, assembly);
   model.free_index.assign(assembly.blocks.size(), ContactProblem::kFixed);
@@ -33,6 +34,15 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   if (model.plane)
     require_plane_scene(scene, assembly, {model.loads, model.ties, model.support_motions, model.heat});
   return model;
+}
+
+State seen_from_ground(const Model& model, const State& state, double h) {
+  const Vec3 now = model.ground.displacement(state.time);
+  const Vec3 velocity = (now - model.ground.displacement(state.time - h)) / h;
+  State seen = state;
+  for (Pose& pose : seen.poses) pose.p_WB -= now;
+  for (int i = 0; i < model.num_free(); ++i) seen.v.segment<3>(6 * i) -= velocity;
+  return seen;
 }
 
 State state_at_rest(const Model& model) {
@@ -71,6 +81,13 @@ ContactMemories memories_at_rest(const Model& model, const State& rest,
         rest.poses[c.block_a].q_WB.conjugate() * (moved - moved.dot(c.normal) * c.normal);
   }
   return memories;
+}
+
+std::vector<Vec3> displacements(const Assembly& assembly, const State& state) {
+  std::vector<Vec3> displacement(state.poses.size());
+  for (size_t block = 0; block < displacement.size(); ++block)
+    displacement[block] = state.poses[block].p_WB - assembly.blocks[block].centroid;
+  return displacement;
 }
 
 Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB) {

@@ -24,7 +24,8 @@ struct Model {
   LoadSet loads;
   std::vector<Tie> ties;
   bool ties_yield = false;  ///< at least one of them does
-  std::vector<SupportMotion> support_motions;
+  GroundMotion ground;
+  std::vector<SupportMotion> support_motions;  ///< that of the ground among them
   HeatedBlocks heat;
   std::vector<int> free_index;   ///< block -> row block, or ContactProblem::kFixed (num_blocks)
   std::vector<int> free_blocks;  ///< row block -> block (nb)
@@ -48,6 +49,11 @@ struct State {
   std::vector<Pose> poses;  ///< (num_blocks)
   VecX v;                   ///< m/s, rad/s: linear then angular, world axes (6 nb, free blocks)
 };
+
+/// The state relative to the ground: without its displacement and without its mean velocity over the last step
+/// h (s), which a block that rests on it has in this scheme.
+State seen_from_ground(const Model& model, const State& state, double h);
+
 /// Blocks at rest as generated, supports at their imposed positions at time 0.
 State state_at_rest(const Model& model);
 
@@ -58,6 +64,9 @@ const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, 
 /// Memories of these contacts: unloaded, but where a support has moved along a joint, it has stretched the
 /// tangential spring by as much. How far it has moved across the joint is in the gap.
 ContactMemories memories_at_rest(const Model& model, const State& rest, const std::vector<Contact>& contacts);
+
+/// m, of the centroids from the assembly as generated (num_blocks).
+std::vector<Vec3> displacements(const Assembly& assembly, const State& state);
 
 /// Mass matrix of one block, with the inertia in world axes.
 Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB);

@@ -220,11 +220,4 @@ Vec3 Simulation::linear_momentum() const {
   return momentum;
 }
 
-std::vector<Vec3> Simulation::displacements() const {
-  std::vector<Vec3> displacement(state_.poses.size());
-  for (size_t block = 0; block < displacement.size(); ++block)
-    displacement[block] = state_.poses[block].p_WB - model_.assembly->blocks[block].centroid;
-  return displacement;
-}
-
 }  // namespace cupola

@@ -86,8 +86,8 @@ class Simulation {
   const ContactSet& contacts() const { return model_.heat.empty() ? detector_.contacts() : heated_; }
   const ContactMemories& memories() const { return memories_; }
   Energy energy() const { return compute_energy(model_, state_, contacts(), memories_); }
-  Vec3 linear_momentum() const;             ///< N s, of the free blocks
-  std::vector<Vec3> displacements() const;  ///< m, of the centroids from the assembly as generated
+  Vec3 linear_momentum() const;  ///< N s, of the free blocks
+  std::vector<Vec3> displacements() const { return cupola::displacements(*model_.assembly, state_); }
 
  private:
   /// All of the step after contact detection, for the whole scene or the part that is awake.

@@ -65,13 +65,13 @@ constexpr CsvColumn<HistoryStep> kHistoryColumns[] = {
 
 }  // namespace
 
-Snapshot take_snapshot(const Simulation& simulation) {
+Snapshot take_snapshot(const Simulation& simulation, const State& seen) {
   Snapshot snapshot;
   snapshot.momentum = simulation.linear_momentum();
-  snapshot.speed = largest_speed(simulation.state().v);
+  snapshot.speed = largest_speed(seen.v);
   const Model& model = simulation.model();
   for (int block : model.free_blocks) {
-    const Vec3 moved = simulation.state().poses[block].p_WB - model.assembly->blocks[block].centroid;
+    const Vec3 moved = seen.poses[block].p_WB - model.assembly->blocks[block].centroid;
     snapshot.displacement = std::max(snapshot.displacement, moved.norm());
   }
   return snapshot;

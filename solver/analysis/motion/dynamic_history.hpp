@@ -7,13 +7,15 @@
 
 namespace cupola {
 
-/// Momentum, speed and displacement at the end of a step, for the log and the history.
+/// Momentum, speed and displacement at the end of a step, for the log and the history. The momentum is that in
+/// the world, the others are relative to the ground.
 struct Snapshot {
   Vec3 momentum = Vec3::Zero();  ///< N s
   double speed = 0.0;            ///< m/s, of the fastest block
   double displacement = 0.0;     ///< m, largest distance of a free block from its position as built
 };
-Snapshot take_snapshot(const Simulation& simulation);
+/// `seen`: the state of the simulation, seen from the ground.
+Snapshot take_snapshot(const Simulation& simulation, const State& seen);
 
 /// The energy of a run and what has changed it since its start, J.
 struct RunEnergy {

@@ -11,7 +11,7 @@ namespace cupola {
 /// point is not taken for rest, and without a trend, so that slow creep is not.
 class RestWindow {
  public:
-  /// After each step.
+  /// After each step. `state`: seen from the ground.
   void include(const Model& model, const State& state, const Analysis::Thresholds& thresholds);
 
   /// No block has been faster than thresholds.speed in the window, or since the start of a shorter run.

@@ -77,9 +77,9 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   const double speed = largest_speed(solution.step_solution.v);
   if (solution.outcome == StaticOutcome::moving && speed > 0.0)
     loaded.state.v = solution.step_solution.v / speed;
-  std::vector<Vec3> displacement(loaded.state.poses.size());
-  for (size_t block = 0; block < displacement.size(); ++block)
-    displacement[block] = loaded.state.poses[block].p_WB - model.assembly->blocks[block].centroid;
+  const Vec3 ground = model.ground.displacement(loaded.state.time);
+  std::vector<Vec3> displacement = displacements(*model.assembly, loaded.state);
+  for (Vec3& of_block : displacement) of_block -= ground;
   Frame frame =
       make_frame(model, loaded.state, contacts, solution.forces,
                  static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
