@@ -151,10 +151,12 @@ void estimate_motion(const Case& scene, const Assembly& assembly, const ContactP
                      CostEstimate* cost) {
   Simulation simulation = make_simulation(scene, assembly);
   if (simulation.options().static_start && !estimate_start(scene, &simulation, cost)) return;
-  const double duration = scene.analysis.duration, started = cpu_seconds();
+  const Analysis& analysis = scene.analysis;
+  const double started = cpu_seconds();
+  const auto done = [cost] { return static_cast<int>(cost->steps.size()); };
   const auto more = [&] {
-    return static_cast<int>(cost->steps.size()) < kTimedSteps && cpu_seconds() - started < kTimingBudget &&
-           simulation.state().time < duration * (1.0 - 1e-12);
+    return done() < kTimedSteps && cpu_seconds() - started < kTimingBudget &&
+           !is_over(analysis, done(), simulation.state().time);
   };
   while (more()) {
     const double before = cpu_seconds();
@@ -165,7 +167,9 @@ void estimate_motion(const Case& scene, const Assembly& assembly, const ContactP
   }
   if (cost->steps.empty()) return;
   const TimedStep& last = cost->steps.back();
-  cost->seconds += std::max(0.0, duration - simulation.state().time) / last.h * last.seconds;
+  const double left = analysis.adaptive ? std::max(0.0, analysis.duration - simulation.state().time) / last.h
+                                        : num_steps(analysis) - done();
+  cost->seconds += left * last.seconds;
   if (!cost->basis.empty()) cost->basis += "; ";
   cost->basis += fmt::format("{}, the last of {:.3g} s in {:.3g} s", counted(cost->steps.size(), "step"),
                              last.h, last.seconds);

@@ -214,7 +214,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
     if (!analysis.adaptive) analysis.adaptive.emplace();
     analysis.adaptive->displacement_error = *analysis.time_error;
   }
-  s.number("duration", analysis.duration, {.unit = "s", .above = 0}, "dynamic: simulated time");
+  s.number("duration", analysis.duration, {.unit = "s", .above = 0},
+           "dynamic: simulated time; the last fixed step covers its end");
   s.number("damping", analysis.damping, {.unit = "s", .min = 0},
            "contact damping coefficient over contact stiffness, alpha");
   s.number("recovery_speed", analysis.recovery_speed, {.unit = "m/s", .above = 0},

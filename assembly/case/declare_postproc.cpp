@@ -41,7 +41,7 @@ bool names_differ(const std::vector<Named>& parts) {
 
 void declare_output(Section& s, Output& output) {
   s.number("frames_every", output.frames_every, {.unit = "s", .above = 0},
-           "dynamic: time between result frames");
+           "dynamic: time between result frames, each at the end of the step that reaches it");
 }
 
 void declare_postproc(Section& s, Postproc& postproc) {

@@ -62,10 +62,7 @@ std::string describe_motion(const Case& scene) {
       analysis.adaptive
           ? fmt::format("{:g} s in adaptive steps, the first of {:g} s", analysis.duration,
                         analysis.time_step)
-          : fmt::format(
-                "{} of {:g} s",
-                counted(static_cast<long long>(std::ceil(analysis.duration / analysis.time_step)), "step"),
-                analysis.time_step);
+          : fmt::format("{} of {:g} s", counted(num_steps(analysis), "step"), analysis.time_step);
   return fmt::format("dynamic, {}: {}; contacts are updated where blocks have moved",
                      to_string(analysis.method), steps);
 }

@@ -148,10 +148,7 @@ void DynamicRun::include_accuracy(double time) {
 Stop DynamicRun::stop_reason() const {
   const double time = simulation_.state().time;
   if (!report_.solve.usable()) return Stop::solver_failed;
-  const bool over = analysis_.adaptive
-                        ? time >= analysis_.duration * (1.0 - 1e-12)
-                        : progress_.steps >= std::llround(analysis_.duration / analysis_.time_step);
-  if (over) return Stop::time_over;
+  if (is_over(analysis_, progress_.steps, time)) return Stop::time_over;
   if (analysis_.stop.collapsed && now_.displacement > analysis_.thresholds.displacement)
     return Stop::collapsed;
   if (analysis_.stop.settled_time > 0.0 && time - progress_.calm_since >= analysis_.stop.settled_time)
@@ -162,8 +159,13 @@ Stop DynamicRun::stop_reason() const {
 bool DynamicRun::frame_is_due(Stop stop) const {
   if (stop != Stop::no) return true;
   const double every = scene_.output.frames_every;
-  if (!analysis_.adaptive)
-    return progress_.steps % std::max(1LL, std::llround(every / analysis_.time_step)) == 0;
+  if (!analysis_.adaptive) {  // the first step that reaches the time of the next frame
+    constexpr double kRounding = 1e-6;
+    const auto reached = [&](int steps) {
+      return std::floor(steps * analysis_.time_step / every + kRounding);
+    };
+    return reached(progress_.steps) > reached(progress_.steps - 1);
+  }
   const double frames = simulation_.state().time / every;
   return std::abs(frames - std::round(frames)) < 1e-9;
 }

@@ -91,6 +91,9 @@ TEST(ExplainModel, NamesItsOptions) {
   scene.analysis.adaptive = AdaptiveStep{.smallest = 1e-5, .largest = 0.05, .displacement_error = 1e-4};
   expect_phrase(scene, "step        adaptive, 1e-05 to 0.05 s");
   scene = moving_wall();
+  scene.analysis.time_step = 0.03;
+  expect_phrase(scene, "4 steps of 0.03 s");
+  scene = moving_wall();
   scene.analysis.sleep = Sleep{.speed = 1e-3, .time = 0.2};
   expect_phrase(scene, "sleep       islands slower than 0.001 m/s for 0.2 s");
   scene = moving_wall();

@@ -51,6 +51,15 @@ std::string missed_width(double width, double asked) {
   return fmt::format("; bracket width {:.1e} of the middle > {:.1e} requested", width, asked);
 }
 
+int num_steps(const Analysis& analysis) {
+  constexpr double kRounding = 1e-5;  // steps: 0.333333 s fits three times into 1 s
+  return std::max(1, static_cast<int>(std::ceil(analysis.duration / analysis.time_step - kRounding)));
+}
+
+bool is_over(const Analysis& analysis, int steps, double time) {
+  return analysis.adaptive ? time >= analysis.duration * (1.0 - 1e-12) : steps >= num_steps(analysis);
+}
+
 double step_limit(const Case& scene, double time) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.adaptive) return analysis.time_step;

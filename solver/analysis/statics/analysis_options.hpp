@@ -23,6 +23,10 @@ double bracket_width(const Analysis& analysis);
 /// A clause for the message of a limit analysis whose bracket is wider than asked.
 std::string missed_width(double width, double asked);
 
+/// Number of steps of a dynamic analysis with fixed steps: the fewest that cover its duration.
+int num_steps(const Analysis& analysis);
+/// True if a dynamic analysis has reached its duration at `time` (s), after `steps`.
+bool is_over(const Analysis& analysis, int steps, double time);
 /// Longest step of a dynamic analysis from `time`, s. Adaptive steps end at the times of frames and at the
 /// end of the analysis.
 double step_limit(const Case& scene, double time);

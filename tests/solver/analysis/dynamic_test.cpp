@@ -1,4 +1,5 @@
 #include <cmath>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -387,6 +388,46 @@ TEST(AdaptiveStep, TakesFewStepsAndEndsOnTheTimesOfFrames) {
   ASSERT_EQ(times.size(), 8u);
   for (size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], 0.25 * (static_cast<double>(i) + 1), 1e-9);
   EXPECT_LT(summary.steps, 400) << "2,000 steps of constant length";
+}
+
+// 0.3 s does not divide 1 s, nor 0.5 s; 0.1 s does, up to rounding.
+TEST(FixedSteps, CoverTheDurationAndTheTimesOfFrames) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  const auto frame_times = [&](double h) {
+    Case scene = make_case(0.4, 1e-8, h);
+    scene.analysis.duration = 1.0;
+    scene.output.frames_every = 0.5;
+    std::vector<double> times;
+    AnalysisSinks sinks;
+    sinks.frame = [&times](const Frame& frame) { times.push_back(frame.time); };
+    run_dynamic(scene, assembly, sinks);
+    return times;
+  };
+  const auto expect_times = [](const std::vector<double>& times, const std::vector<double>& expected) {
+    ASSERT_EQ(times.size(), expected.size());
+    for (size_t i = 0; i < times.size(); ++i) EXPECT_NEAR(times[i], expected[i], 1e-12);
+  };
+  expect_times(frame_times(0.3), {0.6, 1.2});
+  expect_times(frame_times(0.1), {0.5, 1.0});
+}
+
+// The ground gains 0.375 m/s within a second and keeps it, so that it moves by almost a metre. The block rides
+// on it by friction: seen from the ground, it hardly moves and comes to rest.
+TEST(BaseMotion, CountsMotionFromTheGround) {
+  const std::string path = ::testing::TempDir() + "/ground.csv";
+  std::ofstream(path) << "0, 0\n0.25, 0.5\n0.75, 0.5\n1, 0\n";
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  Case scene = make_case(0.6, 1e-10, 0.005);
+  scene.analysis.duration = 3.0;
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::acceleration, Vec3::UnitX()};
+  scene.analysis.start = Analysis::Start::static_;
+  const RunResult result = run(scene, assembly);
+  EXPECT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  // 4 N of horizontal force per kg m/s2 on springs of 1e-10 m/N shift it by less than a micrometre.
+  EXPECT_LT(*result.summary.max_displacement_m, 1e-6);
+  EXPECT_LT(*result.summary.max_speed_m_per_s, 1e-6);
+  EXPECT_NEAR(result.last.blocks.position[1].x(), 0.1875 + 2.0 * 0.375, 1e-6);
+  for (const Vec3& displacement : result.last.blocks.displacement) EXPECT_LT(displacement.norm(), 1e-6);
 }
 
 TEST(StopRules, EndTheAnalysisWhenSettledOrCollapsed) {
