@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/case_times.hpp"
 #include "assembly/case/case_tree.hpp"
 #include "assembly/case/declare.hpp"
 #include "assembly/case/plausibility.hpp"
@@ -63,6 +64,7 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   the_case.warnings = sentences(expected);
   the_case.warnings.insert(the_case.warnings.begin(), not_inherited.begin(), not_inherited.end());
   for (std::string& unused : unused_tensions(the_case.joints)) the_case.warnings.push_back(std::move(unused));
+  for (std::string& unused : unused_times(the_case)) the_case.warnings.push_back(std::move(unused));
   return the_case;
 }
 

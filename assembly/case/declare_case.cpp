@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/case_times.hpp"
 #include "assembly/case/declare.hpp"
 
 namespace cupola {
@@ -67,6 +68,18 @@ void expect_face_loads(const Section& s, const Case& the_case) {
                   "in kN/m2? Loads are in N/m2", "too many digits? 1e6 N/m2 is 1 MPa"});
 }
 
+/// A path follows what changes with time.
+void declare_path_rule(Section& s, const Case& the_case) {
+  if (the_case.analysis.type != AnalysisType::path || the_case.supports.base_motion) return;
+  const std::vector<KeyedTime> times = times_of(the_case);
+  const bool changes =
+      std::ranges::any_of(times, [](const KeyedTime& time) { return varies(time.function); });
+  const std::string& first = times.front().key;
+  s.rule(changes, first.substr(0, first.find('.')),
+         fmt::format("nothing changes with time, as analysis.type: path requires; give {}: {{type: ramp}}",
+                     first));
+}
+
 }  // namespace
 
 void declare_swept_key(Section& s, SweptKey& swept) {
@@ -91,6 +104,7 @@ void declare_case(Section& s, Case& the_case) {
   s.rule(the_case.supports.restraints.empty() || the_case.analysis.type != AnalysisType::staged, "supports",
          "restraints are not part of the stages of construction: remove supports.restraints");
   declare_heat_rules(s, the_case);
+  declare_path_rule(s, the_case);
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);

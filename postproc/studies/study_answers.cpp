@@ -112,14 +112,20 @@ Table margins_table(const std::vector<Margin>& margins) {
 std::string verdict_text(const StudyAnswers& answers, RunCache& runs, StudyPage* page) {
   std::string words = "Undecided", reason = "The equilibrium was not computed; see below.";
   bool stands = false;
+  std::vector<std::string> warnings;
   if (runs.finished(answers.verdict)) {
     RunFiles& run = runs.run(answers.verdict);
     words = run.answer("verdict.words");
     reason = run.answer("verdict.reason");
     stands = run.answer("verdict.stands") == "yes";
+    warnings = run.warnings();
   }
+  for (const std::string& warning : warnings)
+    page->add("<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n");
   page->add(verdict_html(words, reason, stands));
-  return fmt::format("{}: {}\n", words, reason);
+  std::string text = fmt::format("{}: {}\n", words, reason);
+  for (const std::string& warning : warnings) text += fmt::format("  warning: {}\n", warning);
+  return text;
 }
 
 }  // namespace

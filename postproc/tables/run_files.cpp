@@ -66,6 +66,15 @@ RunFiles::RunFiles(std::string folder)
     : folder_(std::move(folder)), summaries_(std::make_unique<Summaries>()) {}
 RunFiles::~RunFiles() = default;
 
+std::vector<std::string> RunFiles::warnings() {
+  status();  // reads the file
+  std::vector<std::string> texts;
+  if (const UnorderedJson* list = descend(*summaries_->results, "warnings"); list && list->is_array())
+    for (const UnorderedJson& text : *list)
+      if (text.is_string()) texts.push_back(text.get<std::string>());
+  return texts;
+}
+
 std::string RunFiles::text_of_results(const std::string& key) {
   const std::string path = folder_ + "/results/summary.json";
   if (!summaries_->results) summaries_->results = read_json(path);

@@ -17,8 +17,9 @@ class RunFiles {
   explicit RunFiles(std::string folder);
   ~RunFiles();
 
-  std::string status();   ///< of results/summary.json
-  std::string message();  ///< of results/summary.json: why the run ended with this status
+  std::string status();                 ///< of results/summary.json
+  std::string message();                ///< of results/summary.json: why the run ended with this status
+  std::vector<std::string> warnings();  ///< of results/summary.json
   std::string text_of_results(const std::string& key);  ///< of results/summary.json; InputError without it
   std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
   /// Text of post/answers.json, e.g. `verdict.words`; "" if the run has no such answer.

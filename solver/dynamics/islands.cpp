@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/case_times.hpp"
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
@@ -12,10 +13,6 @@ namespace {
 int root_of(std::vector<int>* parent, int i) {
   while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
   return i;
-}
-
-bool varies(const TimeFunction& time) {
-  return !std::holds_alternative<ConstantInTime>(time);
 }
 
 }  // namespace
@@ -102,8 +99,8 @@ ReducedScene reduce_to_awake(const Model& model, const State& state, const Conta
 }
 
 void require_sleepable(const Case& scene, const Model& model) {
-  bool varying = varies(scene.joints.friction_time) || varies(scene.loads.dead_load_time);
-  for (const TimeFunction& time : model.loads.times) varying = varying || varies(time);
+  const bool varying =
+      std::ranges::any_of(times_of(scene), [](const KeyedTime& time) { return varies(time.function); });
   if (varying || scene.supports.moving() || !model.ties.empty())
     throw InputError(
         "analysis.sleep: requires loads, friction and supports that are constant in time, and no ties; "

@@ -169,6 +169,7 @@ def add_companions(case, key, rng):
         geometry["bond"] = {"type": "herringbone", "spirals": 2, "blocks_per_ring": 8, "rings": 4}
     if path.startswith("joints.wythe"): add_companions(case, Key("geometry.wythes[].name", None, "text"), rng)
     if re.search(r"time|moves|base_motion", path) and analysis.get("type") == "static": analysis |= small_analysis("dynamic", rng)
+    if analysis.get("type") == "path": case.setdefault("loads", {}).setdefault("dead_load_time", {"type": "ramp", "from": 0.5})
 
 
 def small_analysis(kind, rng):

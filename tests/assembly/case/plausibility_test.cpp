@@ -120,9 +120,10 @@ TEST(ImplausibleValues, EveryMistakeGivesOneWarningWithItsCause) {
 
 TEST(ImplausibleValues, AccelerogramsInOtherUnits) {
   const ScratchFolder scratch;
-  scratch.write("quake.csv", "0, 0\n1, 0.05\n2, -0.08\n");
+  scratch.write("quake.csv", "0, 0\n1, 0.08\n2, 0\n3, -0.08\n4, 0\n");
   const std::string motion =
-      "extends: cupola:dome_circular\nsupports: {base_motion: {file: quake.csv, quantity: ";
+      "extends: cupola:dome_circular\nanalysis: {type: dynamic}\n"
+      "supports: {base_motion: {file: quake.csv, quantity: ";
   const auto warnings = [&](const std::string& rest) {
     return read_case(scratch.write("quake.yaml", motion + rest + "}}\n")).warnings;
   };
@@ -134,6 +135,47 @@ TEST(ImplausibleValues, AccelerogramsInOtherUnits) {
   EXPECT_EQ(warnings("acceleration, direction: [981, 0, 0]").size(), 1u);
   EXPECT_TRUE(warnings("displacement").empty());
   EXPECT_EQ(warnings("displacement, direction: [1000, 0, 0]").size(), 1u);
+}
+
+// A pulse of 1 m/s2 for half a second, with and without one that brings the ground back to rest.
+TEST(ImplausibleValues, AccelerogramsThatEndInMotion) {
+  const ScratchFolder scratch;
+  const auto warnings = [&](const std::string& record) {
+    scratch.write("quake.csv", record);
+    return read_case(scratch.write("quake.yaml",
+                                   "extends: cupola:arch\nanalysis: {type: dynamic}\nsupports: "
+                                   "{base_motion: {file: quake.csv, quantity: acceleration}}\n"))
+        .warnings;
+  };
+  EXPECT_TRUE(warnings("0, 0\n0.5, 1\n1, 0\n1.5, -1\n2, 0\n").empty());
+  const std::vector<std::string> ends_fast = warnings("0, 0\n0.5, 1\n1, 0\n");
+  ASSERT_EQ(ends_fast.size(), 1u);
+  EXPECT_TRUE(
+      ends_fast[0].starts_with("supports.base_motion (velocity at the end) = 0.5 m/s: at most 0.025 "
+                               "m/s expected; the ground keeps this velocity after the end of "))
+      << ends_fast[0];
+}
+
+// All analyses but motions and paths take loads, supports and friction as they are at the time 0.
+TEST(UnusedTimes, AreNamedWithTheirFactor) {
+  const auto warnings = [](const std::vector<std::string>& options) {
+    return read_case(bundled_folder() + "/arch.yaml", options).warnings;
+  };
+  const std::string ramp = "supports.moves=[{blocks: [0], displacement: [5e-3, 0, 0], time: {type: ramp}}]";
+  const std::string wave = "loads.dead_load_time={type: harmonic, phase_deg: 90}";
+  EXPECT_EQ(
+      warnings({"analysis={type: static}", ramp}),
+      std::vector<std::string>{"supports.moves[0].time: analysis.type: static uses its value at the time "
+                               "0, which is 0; leave this key out for the full value, or use type: path"});
+  const std::vector<std::string> one = warnings({"analysis={type: range}", wave});
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_TRUE(one[0].starts_with(
+      "loads.dead_load_time: analysis.type: range uses its value at the time 0, which is 1;"))
+      << one[0];
+  EXPECT_TRUE(warnings({"analysis={type: path}", ramp}).empty());
+  EXPECT_TRUE(warnings({"analysis={type: dynamic}", wave}).empty());
+  EXPECT_TRUE(warnings({"analysis={type: limit, limit: {parameter: spread}}", ramp}).empty());
+  EXPECT_TRUE(warnings({"analysis={type: static}", "joints.friction_time={type: ramp, from: 1}"}).empty());
 }
 
 // A fixed cube from z = 0 to 1 m and a block of 1 m height on it.

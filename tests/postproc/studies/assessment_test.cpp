@@ -72,7 +72,8 @@ answers:
 
   void write_run(const std::string& name, const std::string& factor, const std::string& words,
                  const std::string& stands) const {
-    scratch.write("a_safe/" + name + "/results/summary.json", R"({"status": "stable"})");
+    scratch.write("a_safe/" + name + "/results/summary.json",
+                  R"({"status": "stable", "warnings": ["odd load"]})");
     scratch.write("a_safe/" + name + "/post/summary.json", "{\"margin_factor\": " + factor + "}");
     scratch.write("a_safe/" + name + "/post/answers.json",
                   R"({"verdict": {"words": ")" + words + R"(", "reason": "because", "stands": ")" + stands +
@@ -83,6 +84,7 @@ answers:
 TEST(StudyAnswers, SortMarginsAndSayWhatWasNotComputed) {
   const Page page;
   EXPECT_EQ(page.text.find("It stands: because\n"), 0u) << page.text;
+  EXPECT_EQ(page.text.find("  warning: odd load\n"), std::string("It stands: because\n").size()) << page.text;
   const size_t small = page.text.find("\nsmall"), large = page.text.find("\nlarge"),
                none = page.text.find("\nnone");
   EXPECT_LT(small, large) << page.text;
