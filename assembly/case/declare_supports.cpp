@@ -109,7 +109,11 @@ void declare_table(Section& s, TableInTime& table) {
   s.file("file", table.file, "two columns: time (s) and factor");
   s.numbers("times", table.times, {.unit = "s"}, "instead of a file: times, increasing");
   s.numbers("values", table.values, {}, "instead of a file: factor at each time");
-  if (!table.file.empty()) table = read_time_table(table.file);
+  if (!table.file.empty()) {
+    s.rule(table.times.empty() && table.values.empty(), "file",
+           "gives the points: remove `times` and `values`, or this key");
+    table = read_time_table(table.file);
+  }
   bool increasing = table.times.size() == table.values.size();
   for (size_t i = 1; increasing && i < table.times.size(); ++i)
     increasing = table.times[i] > table.times[i - 1];

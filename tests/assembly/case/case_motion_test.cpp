@@ -87,11 +87,17 @@ struct BadMotion {
 TEST(ReadMotion, ErrorsNameTheBrokenRule) {
   const ScratchFolder scratch;
   scratch.write("bad.csv", "0 0\n0 1\n");
+  scratch.write("good.csv", "0 0\n1 1\n");
   for (const BadMotion& bad : std::initializer_list<BadMotion>{
            {"supports: {base_motion: {file: absent.csv}}", "no such file"},
            {"supports: {base_motion: {quantity: displacement}}", "supports.base_motion.file: must be given"},
            {"supports: {moves: [{time: {type: table, file: bad.csv}}]}", "times must increase"},
            {"supports: {moves: [{time: {type: table, times: [0, 0], values: [1, 2]}}]}", "must increase"},
+           {"loads: {dead_load_time: {type: table, file: good.csv, times: [0, 5], values: [7, 7]}}",
+            "loads.dead_load_time.file = good.csv: gives the points: remove `times` and `values`"},
+           {"supports: {moves: [{displacement: [0, 0, -1]}]}\nanalysis: {type: path}",
+            "nothing changes with time, as analysis.type: path requires; give supports.moves[0].time: {type: "
+            "ramp}"},
            {"supports: {moves: [{blocks: [0.5]}]}", "must be a whole number"},
            {"loads: {forces: [{force: [0, 0, 1]}]}",
             "loads.forces[0].block: give the loaded block, a point or `over`"},
