@@ -167,7 +167,8 @@ TEST(UnusedTimes, AreNamedWithTheirFactor) {
       warnings({"analysis={type: static}", ramp}),
       std::vector<std::string>{"supports.moves[0].time: analysis.type: static uses its value at the time "
                                "0, which is 0; leave this key out for the full value, or use type: path"});
-  const std::vector<std::string> one = warnings({"analysis={type: range}", wave});
+  const std::vector<std::string> one =
+      warnings({"analysis={type: range, range: {quantities: [thrust]}}", wave});
   ASSERT_EQ(one.size(), 1u);
   EXPECT_TRUE(one[0].starts_with(
       "loads.dead_load_time: analysis.type: range uses its value at the time 0, which is 1;"))
