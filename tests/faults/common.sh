@@ -13,7 +13,7 @@ write_case() {
     range) line="analysis: {type: range, range: {quantities: [{type: joint, blocks: [0, 1], component: normal}]}}" ;;
     limit) line="analysis: {type: limit, limit: {parameter: acceleration}}" ;;
     staged) line="analysis: {type: staged, friction_law: coulomb, staged: {carry: true}}" ;;
-    path) line=$'loads: {dead_load_time: {type: ramp}}\nanalysis: {type: path, path: {steps: 5, control: {block: 1}}}' ;;
+    path) line=$'loads: {dead_load_time: {type: ramp, from: 0.5}}\nanalysis: {type: path, path: {steps: 5, control: {block: 1}}}' ;;
   esac
   { grep -v ^analysis: "$here/small.yaml"; echo "$line"; } > "$case_file"
 }
