@@ -39,8 +39,7 @@ Dissipation dissipation(const ConicProblem& problem, const ConicSolution& x, dou
     const double slip = mu > 0.0 || whole.cohesion > 0.0 ? s.segment<2>(3 * i + 1).norm() : 0.0;
     const double opening = s[3 * i] - mu * slip;
     const auto power = [&](const ContactStrength& strength, double compression) {
-      const double tension = mu > 0.0 ? std::min(strength.tension, strength.cohesion / mu) : strength.tension;
-      return strength.cohesion * slip + tension * std::max(0.0, opening) +
+      return ContactLaw{.mu = mu, .strength = strength}.dissipation(slip, opening) +
              compression * std::max(0.0, -opening);
     };
     const ContactStrength own = p.strength.empty() ? ContactStrength{} : p.strength[i];

@@ -26,7 +26,8 @@ Vec3 rounding_of_velocity(const ContactProblem& p, int i, const VecX& v) {
 }
 
 /// What the joints dissipate in the motion, an upper bound. Infinite if one without limit of compression
-/// approaches.
+/// approaches. At a given s_n it grows with the slip, because mu times the tension limit is at most the
+/// cohesion: bounds of both components bound the dissipation.
 long double largest_dissipation(const ContactProblem& p, const VecX& v) {
   long double sum = 0.0;
   for (int i = 0; i < p.num_contacts(); ++i) {
@@ -37,8 +38,7 @@ long double largest_dissipation(const ContactProblem& p, const VecX& v) {
     const double closing = (1.0 + 4.0 * kEps) * law.mu * slip + error[0] - s[0];
     if (closing > 0.0 && !std::isfinite(law.strength.compression)) return INFINITY;
     if (closing > 0.0) sum += law.strength.compression * closing;
-    const double tension = law.tension_limit();
-    sum += law.strength.cohesion * slip + tension * std::max(0.0, s[0] + error[0]);
+    sum += law.dissipation(slip, s[0] + error[0] - law.mu * slip);
   }
   return sum;
 }

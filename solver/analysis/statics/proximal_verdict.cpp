@@ -23,10 +23,19 @@ std::string times_text(double times) {
   return fmt::format("{:g}", std::floor(times / digit) * digit);
 }
 
+/// `required`: as of required_forces().
+std::string unproven_text(double required) {
+  if (std::isinf(required))
+    return "up to rounding, no forces within the limits of the joints resist this motion";
+  return fmt::format(
+      "contact forces that balance the loads would have to be at least {} times as large as the loads",
+      times_text(required));
+}
+
 }  // namespace
 
 /// Lower bound of the sum of the normal forces of any equilibrium, from the motion, over the larger of the
-/// sum found and the sum of the loads.
+/// sum found and the sum of the loads. Infinite where no forces within the limits of the joints balance them.
 double ComingToRest::required_forces() const {
   double loads = 0.0;
   const VecX f = applied_forces(model_, start_, start_.time + options_.time_advance);
@@ -81,10 +90,7 @@ std::optional<StaticSolution> ComingToRest::judge_motion(double contraction) {
     if (motion_proof_->search() != MotionProof::Answer::admissible) {
       StaticSolution answer = finish(
           StaticOutcome::moving,
-          fmt::format(
-              "no equilibrium was found: {}; contact forces that balance the loads would have to be at "
-              "least {} times as large as the loads",
-              acceleration_text(), times_text(required)));
+          fmt::format("no equilibrium was found: {}; {}", acceleration_text(), unproven_text(required)));
       answer.forces_over_loads = required;
       return answer;
     }

@@ -32,6 +32,12 @@ struct ContactLaw {
   double tension_limit() const {
     return mu > 0.0 ? std::min(strength.tension, strength.cohesion / mu) : strength.tension;
   }
+  /// The most that cohesion and tension dissipate in the relative velocity s, by the slip |s_t| (0 without
+  /// shear) and the opening beyond dilatancy s_n - mu |s_t|: with compression * max(0, -opening), the largest
+  /// -gamma . s of all gamma in Y.
+  double dissipation(double slip, double opening) const {
+    return strength.cohesion * slip + tension_limit() * std::max(0.0, opening);
+  }
 };
 inline ContactLaw contact_law(const ContactProblem& problem, int i) {
   ContactLaw law{problem.E[3 * i], problem.E[3 * i + 1], problem.mu[i]};

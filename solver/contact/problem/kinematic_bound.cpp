@@ -21,7 +21,7 @@ double required_normal_force(const ContactProblem& problem, const VecX& v) {
   for (int i = 0; i < problem.num_contacts(); ++i) {
     const ContactLaw law = contact_law(problem, i);
     const double slip = u.segment<2>(3 * i + 1).norm(), delta = law.mu * slip - u[3 * i];
-    dissipated += law.strength.cohesion * slip + law.tension_limit() * std::max(0.0, -delta);
+    dissipated += law.dissipation(slip, -delta);
     largest_delta = std::max(largest_delta, delta);
     if (std::isfinite(law.strength.compression))
       crushing += law.strength.compression * std::max(0.0, delta);

@@ -284,5 +284,30 @@ TEST(MotionProof, SlidingBlockIsProvenToMoveAboveItsFriction) {
   }
 }
 
+// Tension resists the opening beyond the dilatancy of the slip: a joint that slides and dilates dissipates by
+// its cohesion alone.
+TEST(MotionProof, SlidingDissipatesByCohesionAlone) {
+  const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 0.2}));
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  ContactProblem p =
+      build_step_problem(scene.model, scene.rest, scene.contacts, scene.memories, step).problem;
+  const VecX weight = applied_forces(scene.model, scene.rest, 0.0);
+  const double cohesion = -0.1 * weight[2];  // N, of each of 4 points
+  const double tension = 1.9 * cohesion;     // next to its limit, cohesion / friction
+  p.strength.assign(p.block_a.size(), {.tension = tension, .cohesion = cohesion});
+  VecX slides = VecX::Zero(6), lifts = VecX::Zero(6);
+  slides[0] = 1.0;
+  slides[2] = 0.5 * (1.0 + 1e-9);
+  lifts[0] = 1.0;
+  lifts[2] = 0.7;
+  for (const double times : {1.0 - 1e-6, 1.0 + 1e-6}) {
+    VecX load = weight;
+    load[0] = times * (4.0 * cohesion - 0.5 * weight[2]);
+    EXPECT_EQ(proves_motion(p, load, slides), times > 1.0);
+    load[0] = times * (4.0 * cohesion + 0.2 * 4.0 * tension - 0.7 * weight[2]);
+    EXPECT_EQ(proves_motion(p, load, lifts), times > 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace cupola::verdict_test
