@@ -57,7 +57,11 @@ void declare_ratio(Section& s, BaseRatio& ratio) {
 
 void declare_tie(Section& s, TieForce& tie) {
   s.required_integer("tie", tie.tie, {.min = 0},
-                     "number of the tie: pairs, then the links of the chains, then imported ties");
+                     "number in ties.csv: pairs, links of the chains, imported ties; a rod has two");
+}
+
+void declare_restraint_force(Section& s, RestraintForce& restraint) {
+  s.required_integer("restraint", restraint.restraint, {.min = 0}, "number in supports.restraints");
 }
 
 void declare_all_joints(Section& s, AllJoints& joints) {
@@ -80,7 +84,9 @@ void declare_quantity(Section& s, ForceQuantity& quantity) {
                                   declare_share),
        alternative<ForceQuantity>("ratio", "mean vertical reaction of a block of one group over another's",
                                   declare_ratio),
-       alternative<ForceQuantity>("tie", "force of a tie", declare_tie),
+       alternative<ForceQuantity>("tie", "force of a tie or rod, tension positive", declare_tie),
+       alternative<ForceQuantity>("restraint", "force of a restraint on its block along its direction",
+                                  declare_restraint_force),
        alternative<ForceQuantity>("all_joints", "normal force of every joint of a sector",
                                   declare_all_joints)},
       "quantity; a name alone stands for {type: name}");

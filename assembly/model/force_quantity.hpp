@@ -69,10 +69,15 @@ struct BaseRatio {
   BaseBlocks of, over;
 };
 
-/// Force of a tie (tension) or strut (thrust), in the order of the ties of the case, then of the imported
-/// ones.
+/// Force of a tie, >= 0, or of a rod, tension positive: `tie` is a number in the tables of ties, in which a rod
+/// is a tie and a strut and has two.
 struct TieForce {
   int tie = 0;
+};
+
+/// Force of a restraint on its block along the direction of the restraint.
+struct RestraintForce {
+  int restraint = 0;  ///< index into Supports::restraints
 };
 
 /// The normal force of every joint whose centroid lies within the first of a number of equal sectors about
@@ -83,7 +88,7 @@ struct AllJoints {
 };
 
 /// A quantity of which a range analysis finds the smallest and the largest value.
-using ForceQuantity =
-    std::variant<BaseThrust, BlockReaction, JointForce, HoopForce, BaseShare, BaseRatio, TieForce, AllJoints>;
+using ForceQuantity = std::variant<BaseThrust, BlockReaction, JointForce, HoopForce, BaseShare, BaseRatio,
+                                   TieForce, RestraintForce, AllJoints>;
 
 }  // namespace cupola

@@ -131,4 +131,18 @@ std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
   return ties;
 }
 
+int strut_of(const std::vector<Tie>& ties, int k) {
+  if (ties[k].strut) return k;
+  return k + 1 < std::ssize(ties) && ties[k + 1].strut ? k + 1 : -1;
+}
+
+void remove_self_stress(const std::vector<Tie>& ties, std::vector<double>* forces) {
+  for (size_t k = 1; k < ties.size(); ++k) {
+    if (!ties[k].strut) continue;
+    const double common = std::min((*forces)[k - 1], (*forces)[k]);
+    (*forces)[k - 1] -= common;
+    (*forces)[k] -= common;
+  }
+}
+
 }  // namespace cupola

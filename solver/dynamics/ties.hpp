@@ -40,4 +40,11 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses);
 /// for restraints of fixed blocks or without one.
 std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly);
 
+/// The strut of the bar to which tie k belongs, next behind its tie; -1: the bar only pulls.
+int strut_of(const std::vector<Tie>& ties, int k);
+
+/// Subtracts from tie and strut of each bar the force with which they press against each other. That of rigid
+/// bars is arbitrary. `forces`: N, one per tie.
+void remove_self_stress(const std::vector<Tie>& ties, std::vector<double>* forces);
+
 }  // namespace cupola

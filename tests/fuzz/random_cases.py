@@ -47,7 +47,7 @@ SMALL = {  # values that keep a model tiny or sensible, by the end of the key; o
     "force": [[0, 0, -500], [100, 0, 0]], "traction": [[0, 0, -50], [10, 0, 0]], "displacement": [[1e-4, 0, 0], [0, 0, 1e-3], 0.5],
     "rotation_deg": [[0, 0.01, 0]], "gravity": [[0, 0, -9.81], [0, 0, -1.6], [0.5, 0, -9.81]], "sequence": [[0, 1], [1, 0]],
     "heights": [[0, 10]], "values": [[0.4, 0.6]], "times": [[0, 0.5]], "at": [[0.5], [0.25, 0.75]], "sections": [[0.5], [1, 5]],
-    "blocks": [[0], [1], [0, 1], [2, 3]], "block": [0, 1, 2, 5], "block_a": [0, 1], "block_b": [2, 3, 4], "tie": [0, 1],
+    "blocks": [[0], [1], [0, 1], [2, 3]], "block": [0, 1, 2, 5], "block_a": [0, 1], "block_b": [2, 3, 4], "tie": [0, 1], "restraint": [0],
     "supports": [["ground"]], "import.file": ["blocks.obj"], "contact.file": ["contacts.csv"], "time.file": ["table.csv"],
     "observed": ["cracks.csv"], "friction_time.file": ["table.csv"], "dead_load_time.file": ["table.csv"], "base_motion.file": ["table.csv"],
     "relative_width": [0.1, 0.01], "tolerance": [1e-9, 1e-6, 1e-2], "wrench_error": [0.5, 0.01], "recovery_speed": [0.6],

@@ -27,6 +27,7 @@ class Objectives {
   std::vector<RangeObjective> operator()(const BaseShare& share) const;
   std::vector<RangeObjective> operator()(const BaseRatio& ratio) const;
   std::vector<RangeObjective> operator()(const TieForce& tie) const;
+  std::vector<RangeObjective> operator()(const RestraintForce& restraint) const;
   std::vector<RangeObjective> operator()(const AllJoints& all) const { return objectives_of(all, scene_); }
 
  private:
@@ -41,6 +42,12 @@ class Objectives {
   template <class Direction>
   void add_on_other_stacks(int first, const Direction& direction, ForceFunctional* f) const;
   ForceFunctional weight_of(const std::set<int>& blocks, double factor) const;
+  /// Ties without those of the restraints, which follow them: a tie and a strut each.
+  int num_ties() const { return static_cast<int>(scene_.model.ties.size()) - 2 * num_restraints(); }
+  int num_restraints() const { return static_cast<int>(scene_.scene.supports.restraints.size()); }
+  /// `sign` times the force of a bar that pulls and pushes, tension positive. That of its tie or strut alone
+  /// has no limit, because they press against each other.
+  ForceFunctional bar(int strut, double sign) const;
 
   const ForceScene& scene_;
 };
@@ -58,6 +65,13 @@ std::string name_of(const BaseBlocks& blocks) {
       break;
   }
   return "ribs";
+}
+
+void require_exists(const char* what, const char* plural, int number, int count) {
+  if (number < count) return;
+  throw InputError(count == 0 ? fmt::format("{}: the model has no {}", kSupportsKey, plural)
+                              : fmt::format("{}: {} {} does not exist: the model has {} 0 to {}",
+                                            kSupportsKey, what, number, plural, count - 1));
 }
 
 const Vec3 kDown = -Vec3::UnitZ();
@@ -87,6 +101,13 @@ void Objectives::add_on_other_stacks(int first, const Direction& direction, Forc
 
 ForceFunctional Objectives::weight_of(const std::set<int>& blocks, double factor) const {
   return on_supports(blocks, [factor](const Vec3&, int) { return Vec3(factor * kDown); });
+}
+
+ForceFunctional Objectives::bar(int strut, double sign) const {
+  ForceFunctional f = scene_.zero();
+  f.ties[strut - 1] = sign;
+  f.ties[strut] = -sign;
+  return f;
 }
 
 /// Of the last stack, in a model of several: on its supports and on the members that carry it.
@@ -140,14 +161,18 @@ std::vector<RangeObjective> Objectives::operator()(const BaseRatio& ratio) const
 }
 
 std::vector<RangeObjective> Objectives::operator()(const TieForce& tie) const {
-  const int count = static_cast<int>(scene_.model.ties.size());
-  if (tie.tie >= count)
-    throw InputError(count == 0 ? fmt::format("{}: the model has no ties", kSupportsKey)
-                                : fmt::format("{}: tie {} does not exist: the model has ties 0 to {}",
-                                              kSupportsKey, tie.tie, count - 1));
+  require_exists("tie", "ties", tie.tie, num_ties());
+  const int strut = strut_of(scene_.model.ties, tie.tie);
+  if (strut >= 0) return {{fmt::format("force of rod {}-{}", strut - 1, strut), "N", bar(strut, 1.0), {}}};
   ForceFunctional f = scene_.zero();
   f.ties[tie.tie] = 1.0;
   return {{fmt::format("force of tie {}", tie.tie), "N", f, {}}};
+}
+
+std::vector<RangeObjective> Objectives::operator()(const RestraintForce& restraint) const {
+  require_exists("restraint", "restraints", restraint.restraint, num_restraints());
+  const int strut = num_ties() + 2 * restraint.restraint + 1;
+  return {{fmt::format("force of restraint {}", restraint.restraint), "N", bar(strut, -1.0), {}}};
 }
 
 }  // namespace

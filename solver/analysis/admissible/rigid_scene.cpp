@@ -95,8 +95,9 @@ Frame admissible_frame(const RigidScene& scene, const VecX& gamma, double time) 
   for (int i = 0; i < problem.num_contacts(); ++i) {
     outside[i] = limit_excess(contact_law(problem, i), gamma.segment<3>(3 * i));
   }
-  Frame frame = make_frame(scene.model, scene.start, scene.contacts,
-                           joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size() / 3)),
+  JointForces forces = joint_forces(scene.contacts, gamma, VecX::Ones(gamma.size() / 3));
+  remove_self_stress(scene.model.ties, &forces.ties);
+  Frame frame = make_frame(scene.model, scene.start, scene.contacts, forces,
                            law_violations(scene.contacts, gamma, outside), scene.memories,
                            std::vector<Vec3>(scene.start.poses.size(), Vec3::Zero()));
   frame.time = time;

@@ -287,5 +287,27 @@ TEST(Range, OfTiesThatYield) {
   expect_ends(summary.ranges[1], W - 2.0 * Y, Y, W);
 }
 
+// A rod holds a box that friction could hold alone. Its tie and its strut, which have a number each, press
+// against each other without limit; what the rod carries has one.
+TEST(Range, OfARodIsThatOfItsTieLessItsStrut) {
+  Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
+  const double weight = box.blocks[1].mass * testing::kG;
+  BuiltTie rod;
+  rod.block_a = 0;
+  rod.block_b = 1;
+  rod.point_b = box.blocks[1].centroid;
+  rod.point_a = rod.point_b - Vec3::UnitX();
+  rod.length = 1.0;
+  rod.stiffness = 1e9;
+  rod.pushes = true;
+  box.ties = {rod};
+  const Summary summary = ranges_of(range_case(0.3, {TieForce{0}, TieForce{1}}), box);
+  ASSERT_EQ(summary.ranges.size(), 2u) << summary.message;
+  for (const ForceRange& range : summary.ranges) {
+    EXPECT_EQ(range.quantity, "force of rod 0-1");
+    expect_ends(range, -0.3 * weight, 0.3 * weight, weight);
+  }
+}
+
 }  // namespace
 }  // namespace cupola::range_test

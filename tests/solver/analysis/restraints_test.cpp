@@ -98,7 +98,7 @@ TEST(Restraints, CarryAForceOfBothSigns) {
 }
 
 // A box that is not pushed: the shear of its bed may be anything that friction admits, because the restraint
-// balances it.
+// balances it. Tie and strut of the restraint do not press against each other.
 TEST(Restraints, WidenARange) {
   const Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
   const double weight = free_weight(box, testing::kG);
@@ -106,12 +106,59 @@ TEST(Restraints, WidenARange) {
   scene.geometry.surface = WallSurface{};
   scene.analysis.type = AnalysisType::range;
   scene.analysis.tolerance = 1e-9;
-  scene.analysis.range.quantities = {JointForce{0, 1, JointForce::Component::shear, Vec3::UnitX()}};
+  scene.analysis.range.quantities = {JointForce{0, 1, JointForce::Component::shear, Vec3::UnitX()},
+                                     RestraintForce{0}};
+  scene.analysis.range.states = true;
   scene.supports.restraints = {{BlockRef{1}, std::nullopt, Vec3::UnitX()}};
-  const Summary summary = run_range(scene, box, {}).value();
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& f) {
+    EXPECT_EQ(std::min(f.ties.force[0], f.ties.force[1]), 0.0) << f.label;
+    EXPECT_LE(std::max(f.ties.force[0], f.ties.force[1]), (0.3 + 1e-6) * weight) << f.label;
+  };
+  const Summary summary = run_range(scene, box, sinks).value();
   ASSERT_EQ(summary.status, Status::stable) << summary.message;
-  EXPECT_NEAR(*summary.ranges.front().min.value, -0.3 * weight, 1e-6 * weight);
-  EXPECT_NEAR(*summary.ranges.front().max.value, 0.3 * weight, 1e-6 * weight);
+  for (const ForceRange& range : summary.ranges) {
+    EXPECT_NEAR(range.min.value.value(), -0.3 * weight, 1e-6 * weight) << range.quantity;
+    EXPECT_NEAR(range.max.value.value(), 0.3 * weight, 1e-6 * weight) << range.quantity;
+  }
+}
+
+// A load to the right of less than friction: the restraint pushes by as much as the bed leaves, along its
+// direction, or pulls.
+TEST(Restraints, HaveARangeWithASign) {
+  const Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
+  const double weight = free_weight(box, testing::kG);
+  Case scene = testing::make_case(0.3, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::range;
+  scene.analysis.tolerance = 1e-9;
+  scene.loads.forces = {push(1, Vec3::Zero(), {0.1 * weight, 0, 0})};
+  scene.analysis.range.quantities = {RestraintForce{0}};
+  for (const double sign : {1.0, -1.0}) {
+    scene.supports.restraints = {{BlockRef{1}, Vec3::Zero(), Vec3(2.0 * sign, 0, 0)}};
+    const ForceRange range = run_range(scene, box, {}).value().ranges.at(0);
+    EXPECT_NEAR(sign > 0.0 ? range.min.value.value() : -range.max.value.value(), -0.4 * weight,
+                1e-6 * weight);
+    EXPECT_NEAR(sign > 0.0 ? range.max.value.value() : -range.min.value.value(), 0.2 * weight, 1e-6 * weight);
+  }
+}
+
+TEST(Restraints, AreNoTiesOfARange) {
+  const Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
+  Case scene = testing::make_case(0.3, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::range;
+  scene.supports.restraints = {{BlockRef{1}, std::nullopt, Vec3::UnitX()}};
+  const auto message = [&](const ForceQuantity& quantity) -> std::string {
+    scene.analysis.range.quantities = {quantity};
+    try {
+      run_range(scene, box, {});
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(TieForce{0}).find("the model has no ties"), std::string::npos);
+  EXPECT_NE(message(RestraintForce{1}).find("restraint 1 does not exist: the model has restraints 0 to 0"),
+            std::string::npos);
 }
 
 // A frictionless plane that falls towards x and y: the box is held along x, and along y it falls freely.
