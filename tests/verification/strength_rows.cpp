@@ -71,6 +71,17 @@ double error_of_surface(double pull_over_push, int subdivide) {
   return largest;
 }
 
+/// Largest error of the moment over compressed zones that are narrow beside a piece, or not.
+double error_of_narrow_zones(int subdivide) {
+  double largest = 0.0;
+  for (const double pieces : {0.08, 1.0 / 6.0, 0.25, 0.35, 0.43, 0.5, 0.6, 1.0, 1.7}) {
+    const double compressed = pieces / subdivide;
+    if (compressed > 0.5) continue;
+    largest = std::max(largest, std::abs(error_of_bed({compressed, 0.0}, 0.5 * std::numbers::pi, subdivide)));
+  }
+  return largest;
+}
+
 /// Minus the slope of log(error) over log(subdivide), by least squares.
 double order_of_surface(double pull_over_push) {
   constexpr std::array kSubdivide{1, 2, 4, 8};
@@ -103,6 +114,9 @@ void add_strength_rows(Computations* all) {
   };
   rows["bed_strength_order"] = [](const ReferenceRow& row) {
     return order_of_surface(row.number("tension"));
+  };
+  rows["bed_narrow_zone"] = [](const ReferenceRow& row) {
+    return error_of_narrow_zones(row.integer("subdivide"));
   };
   rows["arch_strength"] = least_thickness_with_strength;
 }
