@@ -1,6 +1,7 @@
 #include "assembly/case/case_times.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace cupola {
 
@@ -25,13 +26,15 @@ std::vector<std::string> unused_times(const Case& scene) {
   if (analysis.type == AnalysisType::dynamic || analysis.type == AnalysisType::path) return out;
   const bool spread =
       analysis.type == AnalysisType::limit && analysis.limit.parameter == LimitSearch::Parameter::spread;
-  for (const KeyedTime& time : times_of(scene)) {
-    if (!varies(time.function) || (spread && time.key.starts_with("supports.moves"))) continue;
+  std::vector<std::string> values;
+  for (const KeyedTime& time : times_of(scene))
+    if (varies(time.function) && !(spread && time.key.starts_with("supports.moves")))
+      values.push_back(fmt::format("{} = {:g}", time.key, factor_at(time.function, 0.0)));
+  if (!values.empty())
     out.push_back(fmt::format(
-        "{}: analysis.type: {} uses its value at the time 0, which is {:g}; leave this key out for "
-        "the full value, or use type: path",
-        time.key, to_string(analysis.type), factor_at(time.function, 0.0)));
-  }
+        "{} at the time 0, which is all that analysis.type: {} uses; leave this out for the full value, "
+        "or use type: path",
+        fmt::join(values, ", "), to_string(analysis.type)));
   if (scene.supports.base_motion)
     out.push_back(fmt::format("supports.base_motion: analysis.type: {} leaves it out; use type: dynamic",
                               to_string(analysis.type)));

@@ -165,13 +165,17 @@ TEST(UnusedTimes, AreNamedWithTheirFactor) {
   const std::string wave = "loads.dead_load_time={type: harmonic, phase_deg: 90}";
   EXPECT_EQ(
       warnings({"analysis={type: static}", ramp}),
-      std::vector<std::string>{"supports.moves[0].time: analysis.type: static uses its value at the time "
-                               "0, which is 0; leave this key out for the full value, or use type: path"});
+      std::vector<std::string>{"supports.moves[0].time = 0 at the time 0, which is all that analysis.type: "
+                               "static uses; leave this out for the full value, or use type: path"});
+  const std::vector<std::string> both = warnings({"analysis={type: static}", ramp, wave});
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_TRUE(both[0].starts_with("supports.moves[0].time = 0, loads.dead_load_time = 1 at the time 0,"))
+      << both[0];
   const std::vector<std::string> one =
       warnings({"analysis={type: range, range: {quantities: [thrust]}}", wave});
   ASSERT_EQ(one.size(), 1u);
   EXPECT_TRUE(one[0].starts_with(
-      "loads.dead_load_time: analysis.type: range uses its value at the time 0, which is 1;"))
+      "loads.dead_load_time = 1 at the time 0, which is all that analysis.type: range uses;"))
       << one[0];
   EXPECT_TRUE(warnings({"analysis={type: path}", ramp}).empty());
   EXPECT_TRUE(warnings({"analysis={type: dynamic}", wave}).empty());
