@@ -72,6 +72,7 @@ void declare_face_load(Section& s, FaceLoad& load) {
            "kind of the loaded faces");
   s.integer("from_ring", load.from_ring, {.min = 0}, "lowest ring");
   s.integer("to_ring", load.to_ring, {.min = 0}, "highest ring");
+  s.rule(load.from_ring <= load.to_ring, "to_ring", "must be >= from_ring");
   s.text("member", load.member, "only faces of this wythe or group of bonders; empty: of all blocks");
   s.vector3("traction", load.traction, {.unit = "N/m2"}, "force per unit area, of constant direction");
   s.number("pressure", load.pressure, {.unit = "N/m2"},
