@@ -1,3 +1,5 @@
+#include <cmath>
+#include <numbers>
 #include <variant>
 
 #include <fmt/format.h>
@@ -50,14 +52,15 @@ void declare_prism_cut(Section& s, Cut& cut) {
   s.numbers("v", cut.v, {.unit = "m"}, "their z, or y of an axis z");
   const size_t n = cut.u.size();
   s.rule(n >= 3 && n == cut.v.size(), "u", "u and v must have the same number of corners, at least 3");
-  int left = 0, right = 0;
+  double turning = 0.0;  // rad; all turns of a closed outline amount to 2 pi if it is convex, else to more
   for (size_t i = 0; i < n && n == cut.v.size(); ++i) {
     const size_t j = (i + 1) % n, k = (i + 2) % n;
-    const double turn =
-        (cut.u[j] - cut.u[i]) * (cut.v[k] - cut.v[j]) - (cut.v[j] - cut.v[i]) * (cut.u[k] - cut.u[j]);
-    ++(turn > 0.0 ? left : right);
+    const Eigen::Vector2d side(cut.u[j] - cut.u[i], cut.v[j] - cut.v[i]),
+        next(cut.u[k] - cut.u[j], cut.v[k] - cut.v[j]);
+    s.rule(side.norm() > 0.0, "u", fmt::format("corners {} and {} coincide, counted from 0", i, j));
+    turning += std::abs(std::atan2(side.x() * next.y() - side.y() * next.x(), side.dot(next)));
   }
-  s.rule(left == 0 || right == 0, "u",
+  s.rule(turning < 2.0 * std::numbers::pi + 1e-9, "u",
          "the outline must be convex: give an outline with re-entrant corners as several cuts");
 }
 

@@ -138,6 +138,17 @@ TEST(ReadCase, StagesHaveAToleranceOfTheirOwnUnlessOneIsGiven) {
   EXPECT_EQ(read_case(path).analysis.tolerance, Analysis{}.tolerance);
 }
 
+TEST(ReadCase, AnOutlineMayHaveACornerOnAStraightSide) {
+  const ScratchFolder scratch;
+  const auto read = [&](const std::string& outline) {
+    read_case(scratch.write("c.yaml", kWall), {"geometry.cuts=[{type: prism, axis: y, " + outline + "}]"});
+  };
+  EXPECT_NO_THROW(read("u: [-0.5, 0, 0.5, 0], v: [2, 2, 2, 5]"));
+  EXPECT_NO_THROW(read("u: [0, 0.5, 0.3, 0.1], v: [5, 2, 2, 2]")) << "clockwise";
+  EXPECT_THROW(read("u: [0, 6, 1, 3, 5], v: [4, 4, 0, 6, 0]"), InputError)
+      << "a star, which always turns left";
+}
+
 TEST(ReadCase, APresetSetsTheTolerance) {
   const ScratchFolder scratch;
   const std::string own = std::string(kWall) + "analysis: {tolerance: 1e-7}\n";
