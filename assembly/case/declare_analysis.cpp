@@ -52,7 +52,10 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.choice("method", limit.method,
            "direct: conic programmes over all admissible states (associated law, not for spread); bisection: "
            "one static solve per value; automatic: direct where it applies");
-  s.number("low", limit.low, {}, "lower end of the initial bracket; not used by peak_stress");
+  const bool scales = limit.parameter == Parameter::thickness || limit.parameter == Parameter::joint_extent;
+  if (scales) limit.low = 0.01;
+  s.number("low", limit.low, {}, "lower end of the initial bracket; not used by peak_stress",
+           "0; thickness, joint_extent: 0.01");
   s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress");
   s.optional_number("relative_width", limit.relative_width, {.above = 0, .below = 1},
                     "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-5",
@@ -60,9 +63,7 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.vector3("direction", limit.direction, {}, "tilt, acceleration: horizontal direction of the pull");
   s.optional_section("joints", limit.joints, "friction: vary only these joints; default: all joints",
                      declare_joint_group);
-  s.rule((limit.parameter != Parameter::thickness && limit.parameter != Parameter::joint_extent) ||
-             limit.low > 0.0,
-         "low", "must be > 0 when parameter is thickness or joint_extent");
+  s.rule(!scales || limit.low > 0.0, "low", "must be > 0 when parameter is thickness or joint_extent");
   s.rule(limit.low < limit.high, "high", "must be > low");
   s.rule(limit.method != LimitSearch::Method::direct || limit.parameter != Parameter::spread, "method",
          "direct does not apply to spread, which follows displacements; use bisection");

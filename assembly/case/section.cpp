@@ -82,14 +82,17 @@ void Section::require(const std::string& key, const std::string& hint) {
     missing_.emplace_back(where_, fmt::format("{} is missing and has no default{}", path_of(key), hint));
 }
 
-void Section::fail_without(const std::string& key) const {
+std::string Section::misspelling_of(const std::string& key) const {
   std::vector<std::string> given;
   if (node_)
-    for (const CaseNode::Entry& entry : node_->entries) given.push_back(entry.key);
+    for (const CaseNode::Entry& entry : node_->entries)
+      if (!contains(known_, entry.key)) given.push_back(entry.key);
   const std::string near = nearest_name(key, given);
-  throw InputError(where_,
-                   missing_.back().second +
-                       (near.empty() ? "" : fmt::format("; is {} a misspelling of it?", shown(near))));
+  return near.empty() ? "" : fmt::format("; is {} a misspelling of {}?", shown(near), key);
+}
+
+void Section::fail_without(const std::string& key) const {
+  throw InputError(where_, missing_.back().second + misspelling_of(key));
 }
 
 void Section::expect(PlausibleRange range) const {
@@ -173,7 +176,7 @@ void Section::rule(bool holds, const std::string& key, const std::string& text) 
   if (holds || describing()) return;
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
   if (node) fail(key, *node, text);
-  throw InputError(where_, fmt::format("{}: {}", path_of(key), text));
+  throw InputError(where_, fmt::format("{}: {}{}", path_of(key), text, misspelling_of(key)));
 }
 
 void Section::close(const Section& child) {

@@ -177,6 +177,8 @@ class Section {
   void record(const std::string& key, const std::string& text, bool quoted = false);
   void record(const std::string& key, CaseNode value);
   void require(const std::string& key, const std::string& hint = "");
+  /// End of a message about a key that is not given: an unknown key that may stand for it, or "".
+  std::string misspelling_of(const std::string& key) const;
   [[noreturn]] void fail_without(const std::string& key) const;  // `key` is the last missing one
   void check_names() const;                                      // throws for an unknown key
   void close(const Section& child);  // checks its names and takes over its missing keys

@@ -3,6 +3,8 @@
 #include <map>
 #include <set>
 
+#include <fmt/ranges.h>
+
 #include "assembly/base/error.hpp"
 
 namespace cupola {
@@ -38,7 +40,10 @@ void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, 
 Assembly with_thickness(const Assembly& assembly, double factor) {
   CUPOLA_ASSERT(factor > 0.0);
   if (assembly.members.size() > 1)
-    throw InputError("analysis.limit.parameter: thickness: not available for a shell with wythes");
+    throw InputError(
+        fmt::format("analysis.limit.parameter: thickness: requires one member without wythes, and the model "
+                    "has {}; compare runs with other thicknesses of a member instead, by --set",
+                    fmt::join(assembly.members, ", ")));
   std::map<int, int> extrados_of;  // vertex on the intrados -> vertex across the thickness
   for (const Part& part : assembly.parts) add_edges_across(assembly, part, &extrados_of);
   if (extrados_of.empty())

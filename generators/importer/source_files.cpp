@@ -48,9 +48,14 @@ std::vector<RawBlock> read_block_file(const ImportedBlocks& source, const fs::pa
 /// Throws InputError for a name that no block has.
 void check_names(const ImportedBlocks& source, const std::vector<std::string>& names,
                  const std::map<std::string, size_t>& block_of, const char* key) {
-  for (const std::string& name : names)
-    if (!block_of.contains(name))
-      throw InputError(fmt::format("geometry.import.{}: {} has no block named '{}'", key, source.path, name));
+  std::vector<std::string> known;
+  for (const auto& [name, block] : block_of) known.push_back(name);
+  for (const std::string& name : names) {
+    if (block_of.contains(name)) continue;
+    const std::string near = nearest_name(name, known);
+    throw InputError(fmt::format("geometry.import.{}: {} has no block named '{}'{}", key, source.path, name,
+                                 near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  }
 }
 
 }  // namespace

@@ -139,6 +139,9 @@ const BadCase kBadCases[] = {
     {"ShareOfNothing", kGood + "analysis: {range: {quantities: [share]}}\n",
      "bad.yaml:6:33: error: analysis.range.quantities[0].of: must be ribs, mid_sails or herringbone, or "
      "list "},
+    {"MisspeltBlock", kGood + "loads: {forces: [{blok: 3, force: [0, 0, -1]}]}\n",
+     "bad.yaml:6:18: error: loads.forces[0].block: give the loaded block, a point or `over`; is blok a "
+     "misspelling of block?"},
     {"BisectionOfJointExtent",
      kGood + "analysis: {type: limit, limit: {low: 0.1, method: bisection, parameter: joint_extent}}\n",
      "bad.yaml:6:51: error: analysis.limit.method = bisection: bisection does not apply to joint_extent"},
@@ -163,7 +166,7 @@ const BadCase kBadCases[] = {
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "},
     {"MisspeltType", "geometry: {surface: {typ: dome}}\n",
      "bad.yaml:1:21: error: geometry.surface.type is missing and has no default; give one of dome, "
-     "octagonal_vault, arch, wall, vault; is typ a misspelling of it?"},
+     "octagonal_vault, arch, wall, vault; is typ a misspelling of type?"},
     {"MissingRequiredNumber", kGood + "loads: {lantern: {}}\n",
      "bad.yaml:6:18: error: loads.lantern.weight_fraction: give one of weight_fraction, weight (N) and mass"},
     {"KeyOfAnotherType", "geometry: {surface: {type: wall, span: 3}}\n",

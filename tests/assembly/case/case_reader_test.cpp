@@ -138,6 +138,17 @@ TEST(ReadCase, StagesHaveAToleranceOfTheirOwnUnlessOneIsGiven) {
   EXPECT_EQ(read_case(path).analysis.tolerance, Analysis{}.tolerance);
 }
 
+TEST(ReadCase, LimitsOfScalesBeginAboveZeroUnlessLowIsGiven) {
+  const ScratchFolder scratch;
+  const auto low = [&](const std::string& keys) {
+    return read_case(scratch.write("c.yaml", kWall + ("analysis: {type: limit, limit: {" + keys + "}}\n")))
+        .analysis.limit.low;
+  };
+  EXPECT_EQ(low("parameter: friction"), 0.0);
+  EXPECT_EQ(low("parameter: joint_extent"), 0.01);
+  EXPECT_EQ(low("parameter: thickness, low: 0.5"), 0.5);
+}
+
 TEST(ReadCase, AnOutlineMayHaveACornerOnAStraightSide) {
   const ScratchFolder scratch;
   const auto read = [&](const std::string& outline) {
