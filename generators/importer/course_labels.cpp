@@ -54,9 +54,24 @@ class Labels {
     if (sheet_.thrust_lines == one)  // constant: outwards turns from the first springing to the last
       return Eigen::AngleAxisd(sheet_.turn, Vec3::UnitZ()) * Vec3::UnitY();
     if (sheet_.closed) return Vec3::UnitZ().cross(*sheet_.outward(block.centroid));
+    if (stones.size() == 1 && sheet_.thrust_lines == none) return along_wall(stones.front());
     const Vec3 &before = assembly_.blocks[stones[slot > 0 ? slot - 1 : slot]].centroid,
                &after = assembly_.blocks[stones[std::min(slot + 1, stones.size() - 1)]].centroid;
     return (after - before).stableNormalized();
+  }
+
+  /// For the only stone of a course of a wall, as a lintel: along the course of most stones, in a pier of
+  /// single stones along the longer side of the stone.
+  Vec3 along_wall(int block) const {
+    const std::vector<int>& most = *std::ranges::max_element(courses_.stones, {}, &std::vector<int>::size);
+    if (most.size() > 1)
+      return (assembly_.blocks[most.back()].centroid - assembly_.blocks[most.front()].centroid)
+          .stableNormalized();
+    Eigen::AlignedBox3d box;
+    for (const Part& part : assembly_.parts)
+      for (int f = part.face_start; part.block == block && f < part.face_start + part.num_faces; ++f)
+        for (const Vec3& corner : face_points(assembly_, f)) box.extend(corner);
+    return box.sizes().x() < box.sizes().y() ? Vec3::UnitY() : Vec3::UnitX();
   }
 
   FaceKind kind_of_joint(int block, const std::vector<int>& others) const {

@@ -46,8 +46,9 @@ void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
     for (const BedFacet& f : e.shell.beds[ring]) {
       if (!e.shell.wythes[f.block].contains(out->number)) continue;
       const auto place = [&](const Vec3& point) {
-        const Vec3 p = axis.own(point);
-        return out->vault ? azimuth(p) : out->arch ? p.y() : p.x();
+        if (out->vault) return azimuth(axis.own(point));
+        const Vec3 p = axis.turn == 0.0 ? point : axis.own(point);
+        return out->arch ? p.y() : p.x();
       };
       const double a = place(f.intrados_a);
       const double part =
@@ -77,7 +78,10 @@ const Columns<ShellBox>& shell_columns() {
   static const Columns<B> columns{
       {"block", "", "index in the assembly", &B::block},
       {"ring", "", "ring of the unrolled shell", &B::ring},
-      {"from", "", "where the block begins: azimuth in deg, in shell_x.csv x in m, in shell_y.csv y in m",
+      {"from", "",
+       "where the block begins: azimuth in deg, in shell_x.csv x in m, in shell_y.csv y in m; of a turned "
+       "member "
+       "its own x or y",
        &B::from},
       {"to", "", "where the block ends", &B::to},
       {"meridional_force_N_per_m", "N/m",

@@ -89,6 +89,17 @@ TEST(Courses, OfAWallAreThoseItWasGeneratedWith) {
   EXPECT_FALSE(found.sheets.front().outward(Vec3(1.0, 0.0, 0.0)).has_value());
 }
 
+// The lintel is the only stone of its course: the piers below it say which way the wall runs.
+TEST(Courses, OfALintelHaveBothFacesOfTheWall) {
+  const Assembly portal = generate(read_case(CUPOLA_SOURCE_DIR "/cases/portal.yaml", {}));
+  for (const FaceKind skin : {FaceKind::intrados, FaceKind::extrados}) {
+    const std::vector<double> found = areas(portal, skin);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_NEAR(found[0], 2 * 0.6 * 3.0, 1e-12);
+    EXPECT_NEAR(found[1], 4.0 * 0.5, 1e-12);
+  }
+}
+
 // The upright blocks of herringbone spirals reach through several courses.
 TEST(Courses, AreRefusedForHerringboneWithTheStonesThatBreakThem) {
   Case spirals = dome_case();

@@ -177,6 +177,21 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   EXPECT_EQ(outward_at({-3.0, 4.0, 0.0}, false), Vec3(-0.6, 0.8, 0));
 }
 
+// Imported walls have their origin in the middle of their supports; a turned member keeps its own axis.
+TEST(ShellMaps, ShowAWallWhereItStandsInTheModel) {
+  Assembly a = test::column(3);
+  a.sheets.front().origin = Vec3(0.6, 0.4, 0.0);
+  const Evaluation e =
+      test::evaluated(a, {test::column_at_rest(a, test::kGravity, 0.0, 0.9, 0.3)}, test::column_summary(a),
+                      test::column_case(), test::fresh_folder("results"));
+  const ShellMap map = shell_maps(e).front();
+  ASSERT_EQ(map.boxes.size(), 3u);
+  for (const ShellBox& box : map.boxes) {
+    EXPECT_EQ(box.from, 0.0);
+    EXPECT_EQ(box.to, 1.2);
+  }
+}
+
 TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   const ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
   ASSERT_EQ(map.boxes.size(), 3u);
