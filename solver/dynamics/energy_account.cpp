@@ -32,10 +32,10 @@ std::vector<double> spring_energies(const StepProblem& step, const ContactMemori
   return energies;
 }
 
-/// J, of the viscous part of a row that carries a force and whose spring is stretched at the speed u_el.
-double damping_work(const StepProblem& step, Eigen::Index row, double u_el, const StepOptions& options) {
+/// J, of the viscous part of a row that carries a force and whose spring is stretched at the speed `rate`.
+double damping_work(const StepProblem& step, Eigen::Index row, double rate, const StepOptions& options) {
   const double c = compliance(step, row, options);
-  return c > 0.0 ? options.damping * options.reach() * u_el * u_el / c : 0.0;
+  return c > 0.0 ? options.damping * options.reach() * rate * rate / c : 0.0;
 }
 
 /// J: negative of the work of gamma on the inelastic displacements reach z of one contact, friction and
@@ -56,6 +56,13 @@ double yield_work(const StepProblem& step, int row, const ContactSolution& solut
   return solution.gamma[3 * row] / step.impulse_time[row] * plastic_elongation(step, row, solution);
 }
 
+/// m/s, u_el of a contact or tie without the part by which it crosses its gap, which stretches no spring.
+Vec3 stretching(const StepProblem& step, int row, Vec3 u_el, double elastic_gap) {
+  const double b_n = step.problem.b[3 * row] - step.support_velocity_of(row)[0];
+  if (elastic_gap <= 0.0) u_el[0] += std::max(0.0, b_n);
+  return u_el;
+}
+
 /// Work of the contacts and ties: what the joints dissipate, and the springs beyond what they store.
 void add_joint_work(const Model& model, const StepStart& start, const StepProblem& step,
                     const ContactSolution& solution, const State& state, const ContactMemories& memories,
@@ -73,23 +80,27 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
     const Eigen::Index row = 3 * i;
     const Vec3 gamma = solution.gamma.segment<3>(row);
     const JointWork joint = joint_work(step, i, gamma, z.segment<3>(row));
-    double damping = 0.0;
-    for (int k = 0; k < 3 && !gamma.isZero(0.0); ++k)
-      damping += damping_work(step, row + k, u_el[row + k], options);
+    const Vec3 rate = stretching(step, i, u_el.segment<3>(row), start.elastic_gap[i]);
     const double taken = -p.segment<3>(row).dot(mean.segment<3>(row));
-    const double lost = taken - joint.friction + joint.dilatancy - damping - (springs[i] - start.springs[i]);
+    const double stored = springs[i] - start.springs[i];
     const double approach_per_step = options.h * (u_start[row] + step.support_velocity_of(i)[0]);
-    const bool closes = gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i];
     StepWork term;
     term.friction = joint.friction;
     term.dilatancy = joint.dilatancy;
-    term.damping = damping;
-    (closes ? term.impact : term.scheme) = lost;
+    for (int k = 0; k < 3 && !gamma.isZero(0.0); ++k)
+      term.damping += damping_work(step, row + k, rate[k], options);
+    // A spring that no force compresses expands against its damper.
+    if (gamma.isZero(0.0) && options.damping > 0.0) term.damping = -stored;
+    if (gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i])
+      term.impact =
+          taken - joint.friction + joint.dilatancy + step.reach / step.impulse_time[i] * gamma.dot(rate);
+    term.scheme = taken + joint.dilatancy - joint.friction - term.damping - term.impact - stored;
     return term;
   });
   for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie) {
     const Eigen::Index row = 3 * tie;
-    const double damping = solution.gamma[row] == 0.0 ? 0.0 : damping_work(step, row, u_el[row], options);
+    const double rate = stretching(step, tie, u_el.segment<3>(row), 0.0)[0];
+    const double damping = solution.gamma[row] == 0.0 ? 0.0 : damping_work(step, row, rate, options);
     const double yielding = yield_work(step, tie, solution);
     work->damping += damping;
     work->friction += yielding;

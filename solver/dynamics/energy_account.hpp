@@ -10,8 +10,9 @@ namespace cupola {
 ///
 ///     energy at the end - energy at the start = loads + supports + dilatancy - dissipated() + error
 ///
-/// Each term is computed by its own formula from the solution of the step. The error that remains is that of
-/// the contact solve and of rounding.
+/// All but `scheme` have formulas of their own. What the forces do on the mean velocities beyond these is
+/// `scheme`, which tends to zero with h if the others are right. The error that remains is that of the contact
+/// solve and of rounding.
 struct StepWork {
   double loads = 0.0;     ///< increase of the potential energy by loads that change in time
   double supports = 0.0;  ///< work of moving supports
@@ -19,9 +20,9 @@ struct StepWork {
   /// friction takes.
   double dilatancy = 0.0;
   double friction = 0.0;  ///< joint_dissipation(): friction, tension, crushing, and ties that yield
-  double damping = 0.0;   ///< alpha h norm(u_el)^2 / c of compliant joints
-  /// kinetic energy of the approach of contacts that close: their springs are compressed by less than they
-  /// approach in the step
+  double damping = 0.0;   ///< >= 0: alpha h norm(u_el)^2 / c of compliant joints, and springs that part
+  /// Of contacts that close, whose springs are compressed by less than they approach in the step: work on the
+  /// mean velocity that springs, dampers and friction do not take up, (u - u_start) . gamma / 2 + b_n+ gamma_n
   double impact = 0.0;
   /// What the integrator takes, or gives if negative: work of the joints on the mean velocity that is neither
   /// stored nor dissipated above, the same of the loads, finite rotations, contacts that are detected anew,

@@ -74,7 +74,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
     memory.tangent_A = state.poses[contact.block_a].q_WB.conjugate() * R_WC.col(1);
-    const double elastic_gap = b[0] * (h + options.damping) + h * u_el[0];
+    const double elastic_gap = b[0] * options.reach_of(b[0], memory.elastic_gap) + h * u_el[0];
     const bool is_pulled = gamma[0] < 0.0 && model.joints.has_strength();
     memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)
                          : gamma[0] <= 0.0 ? 0.0

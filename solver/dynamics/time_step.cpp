@@ -146,7 +146,7 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
     double gap = unlimited + excess + known.rest[0];
     // A contact that closes stops there. In the rest of the step it would be pushed back to where it closed.
     if (!smooth) gap = std::max(gap, memory.elastic_gap);
-    problem->b[3 * i] = gap / h_alpha;
+    problem->b[3 * i] = gap / options.reach_of(gap, memory.elastic_gap);
     if (options.tangential == TangentialSpring::memory) {
       Vec3 slip_C = R_WC.transpose() * (state.poses[contact.block_a].q_WB * memory.elastic_slip_A);
       if (smooth) slip_C += known.to_middle + known.rest;
@@ -167,7 +167,8 @@ void set_tie_laws(const Model& model, const State& state, const ContactMemories&
     const int row = first_row + static_cast<int>(k);
     problem->E.segment<3>(3 * row).setConstant(tie.compliance / (options.h * h_alpha));
     const double yielded = memories.ties.empty() ? 0.0 : memories.ties[k].yielded;
-    problem->b[3 * row] = (tie_geometry(tie, state.poses).gap + yielded) / h_alpha;
+    const double gap = tie_geometry(tie, state.poses).gap + yielded;
+    problem->b[3 * row] = gap / options.reach_of(gap, 0.0);
     if (std::isfinite(tie.yield_force)) problem->strength[row].compression = options.h * tie.yield_force;
   }
 }

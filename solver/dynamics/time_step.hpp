@@ -28,6 +28,12 @@ struct StepOptions {
   /// Weight of the velocity at the end in the displacement, s, and the same with damping.
   double reach() const { return integrator.v_end * h; }
   double damped_reach() const { return reach() + damping; }
+  /// s, between a gap and its b_n: damped_reach(), but reach() if the contact is open and not pulled. The
+  /// force of a contact that closes in the step to the penetration d is then (1 + alpha / h) d / c, so that
+  /// its damper acts across no gap.
+  double reach_of(double gap, double elastic_gap) const {
+    return gap > 0.0 && elastic_gap <= 0.0 ? reach() : damped_reach();
+  }
 };
 
 /// The contact problem of one step. The rows of the contacts come first, followed by three rows per tie.
@@ -63,7 +69,8 @@ Mat3 contact_frame(const Vec3& normal);
 ///     b_t    = elastic_slip / (h + alpha) + (D_s^T v_s)_t
 ///     E      = c / (h (h + alpha))
 ///
-/// with v_s the imposed velocity of the supports and c the compliance; the gap phi of joints with strength is
+/// with v_s the imposed velocity of the supports and c the compliance; b_n of an open contact is over h
+/// (StepOptions::reach_of()). The gap phi of joints with strength is
 /// measured from their inelastic displacements (joint_damage.hpp). A tie is a frictionless contact (ties.hpp)
 /// whose yield force is a compressive strength. Differences from the paper:
 ///
