@@ -121,6 +121,8 @@ void DynamicRun::include_accuracy(double time) {
   progress_.missed_steps += missed ? 1 : 0;
   progress_.rounded_steps += !missed && solve.reached > analysis_.tolerance ? 1 : 0;
 
+  progress_.elastic_steps += report_.elastic_impact > 0.0 ? 1 : 0;
+  progress_.elastic_impact = std::max(progress_.elastic_impact, report_.elastic_impact);
   if (analysis_.adaptive && report_.h <= analysis_.adaptive->smallest &&
       report_.time_error > analysis_.adaptive->displacement_error) {
     ++progress_.coarse_steps;
@@ -226,6 +228,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   judge_motion(analysis_, progress_, report_.solve, &summary);
   if (scene_.supports.base_motion && summary.status != Status::unconverged)
     summary.message += ", relative to the ground";
+  summary.warnings = elastic_impacts(analysis_, progress_);
   summary.message += stop_note(stop, analysis_);
   return summary;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "assembly/base/error.hpp"
+#include "solver/dynamics/elastic_impact.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/law_violation.hpp"
 
@@ -169,6 +170,8 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
   integrate_positions(model, step.h, step.advance(), mean_velocity(problem, *state, solution, step), state);
   state->v = solution.v;
   report.work = work_of_step(model, start, problem, solution, *state, *memories, step);
+  report.elastic_impact =
+      elastic_impact(start, problem, solution, reference_acceleration(model, start.state), step);
   report.problem = std::move(problem);
   report.step_solution = std::move(solution);
   CUPOLA_ASSERT(!report.solve.usable() || is_finite(*state));

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "solver/analysis/motion/dynamic_history.hpp"
 #include "solver/analysis/motion/rest_window.hpp"
 #include "solver/analysis/record/record_archive.hpp"
@@ -20,6 +23,8 @@ struct RunProgress {
   RunEnergy energy;
   RestWindow rest;
   double calm_since = 0.0;  // s, time since which no block has been faster than the settled speed
+  int elastic_steps = 0;    // steps in which contacts begin to bounce, and their longest time of impact, s
+  double elastic_impact = 0.0;  // (elastic_impact.hpp)
 };
 
 template <class Archive>
@@ -35,8 +40,12 @@ void visit(Archive& archive, RunEnergy& x) {
 template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
   archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.coarse_steps, x.worst_time_error,
-          x.worst_error, x.measure, x.worst, x.energy, x.rest, x.calm_since);
+          x.worst_error, x.measure, x.worst, x.energy, x.rest, x.calm_since, x.elastic_steps,
+          x.elastic_impact);
 }
+
+/// A warning if impacts were elastic.
+std::vector<std::string> elastic_impacts(const Analysis& analysis, const RunProgress& progress);
 
 /// Sets status, accuracy and message. `last`: the solve of the last step.
 void judge_motion(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,

@@ -430,6 +430,39 @@ TEST(BaseMotion, CountsMotionFromTheGround) {
   for (const Vec3& displacement : result.last.blocks.displacement) EXPECT_LT(displacement.norm(), 1e-6);
 }
 
+// A cube of 1000 kg falls by 0.1 m on four points of 1e-8 m/N. A corner alone meets 250 kg: its time of impact is
+// sqrt(m c) = 1.6 ms.
+TEST(Impact, IsElasticOnlyIfStepsResolveItUndamped) {
+  const Assembly assembly = testing::make_boxes(
+      {{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}, {.center = {0, 0, 0.6}}});
+  struct Fall {
+    double h, damping;  // s
+    bool bounces;
+  };
+  for (const Fall& fall :
+       {Fall{1e-2, 0.0, false}, {2e-4, 0.0, true}, {2e-4, 4e-3, false}, {2e-4, 2e-2, false}}) {
+    SCOPED_TRACE(fmt::format("h = {} s, alpha = {} s", fall.h, fall.damping));
+    Case scene = make_case(0.4, 1e-8, fall.h, fall.damping);
+    scene.analysis.duration = 0.3;
+    scene.analysis.tolerance = 1e-9;
+    Simulation simulation = testing::simulate(scene, assembly);
+    double upward = 0.0;
+    while (simulation.state().time < 0.3) {
+      simulation.advance();
+      upward = std::max(upward, simulation.state().v[2]);
+    }
+    const double speed = std::sqrt(2.0 * kG * 0.1);
+    EXPECT_EQ(upward > 0.8 * speed, fall.bounces)
+        << upward;  // exp(- pi w h / 2) of implicit Euler, w = 632 1/s
+    EXPECT_EQ(upward > 0.1 * speed, fall.bounces) << upward;
+    const Summary s = run(scene, assembly).summary;
+    ASSERT_EQ(!s.warnings.empty(), fall.bounces);
+    if (fall.bounces) {
+      EXPECT_NE(s.warnings[0].find("`analysis.damping: 3.2e-03`"), std::string::npos) << s.warnings[0];
+    }
+  }
+}
+
 TEST(StopRules, EndTheAnalysisWhenSettledOrCollapsed) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   Case scene = make_case(0.4, 1e-8, 0.01);
