@@ -4,6 +4,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/case/plausibility.hpp"
+#include "assembly/case/resolve_thresholds.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/block_names.hpp"
@@ -36,6 +37,7 @@ EvaluatedRun evaluate_run(const RunInput& input) {
   Case scene = input.scene;
   resolve_block_names(assembly, &scene.loads, &scene.ties, &scene.supports);
   resolve_compliance(assembly, scene.loads.gravity, &scene.joints.compliance);
+  resolve_thresholds(assembly, &scene.analysis.thresholds);
   std::vector<std::string> doubts =
       united({results.summary().warnings, scene.warnings, implausible_for_blocks(scene, assembly)});
   report_warnings("cupola-post", doubts, results.summary().warnings, input.strict);

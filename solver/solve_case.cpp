@@ -11,6 +11,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
+#include "assembly/case/resolve_thresholds.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/files/folder_lock.hpp"
@@ -48,6 +49,7 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
   resolve_compliance(assembly, request.scene.loads.gravity, &request.scene.joints.compliance);
+  resolve_thresholds(assembly, &request.scene.analysis.thresholds);
   if (auto& control = request.scene.analysis.path.control) {
     resolve_block_name(assembly, "analysis.path.control", &control->block);
     if (control->relative_to)

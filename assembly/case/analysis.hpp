@@ -210,9 +210,12 @@ struct Analysis {
   enum class Start { automatic, rest, static_ };
   Start start = Start::automatic;  ///< static under base motion or varying friction, else rest
   struct Thresholds {
-    double speed = 1e-3;        ///< m/s: a faster block within the window makes the status `moving`
-    double window = 0.2;        ///< s at the end of a motion over which rest is judged
-    double displacement = 0.5;  ///< m: a block displaced further makes the status `collapsed`
+    double speed = 1e-3;  ///< m/s: a faster block within the window makes the status `moving`
+    double window = 0.2;  ///< s at the end of a motion over which rest is judged
+    /// m: a block displaced further makes the status `collapsed`; none: see resolve_thresholds()
+    std::optional<double> displacement = {};
+    static constexpr double kDisplacement = 0.5;  // m
+    double collapse() const { return displacement.value_or(kDisplacement); }
   } thresholds;
   StopRules stop;
   std::optional<Sleep> sleep;  ///< dynamic; none: all islands are solved in every step

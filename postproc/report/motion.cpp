@@ -57,7 +57,7 @@ const char* relative_to_ground(const Evaluation& e) {
 
 void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
                          std::vector<KeyNumber>* out) {
-  const double threshold = e.scene.analysis.thresholds.displacement;
+  const double threshold = e.scene.analysis.thresholds.collapse();
   out->push_back({"Largest displacement", length_text(farthest_block(e).displacement),
                   fmt::format("after {:.4g} s{}", e.last.frame.time, relative_to_ground(e))});
   const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
@@ -92,7 +92,7 @@ void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) 
 
 void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
                         std::vector<std::string>* out) {
-  const double threshold = e.scene.analysis.thresholds.displacement;
+  const double threshold = e.scene.analysis.thresholds.collapse();
   const Farthest farthest = farthest_block(e);
   const size_t bodies = count_bodies(e);
   out->push_back(fmt::format(

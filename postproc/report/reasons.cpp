@@ -87,7 +87,7 @@ std::string collapsed_text(const Evaluation& e) {
   return fmt::format("Within {:.4g} s a block moves by {}{}; a displacement above {} counts as collapse.",
                      e.last.frame.time, length_text(farthest),
                      e.scene.supports.base_motion ? " relative to the ground" : "",
-                     length_text(e.scene.analysis.thresholds.displacement));
+                     length_text(e.scene.analysis.thresholds.collapse()));
 }
 
 std::string friction_text(const Joints& joints) {

@@ -151,8 +151,7 @@ Stop DynamicRun::stop_reason() const {
   const double time = simulation_.state().time;
   if (!report_.solve.usable()) return Stop::solver_failed;
   if (is_over(analysis_, progress_.steps, time)) return Stop::time_over;
-  if (analysis_.stop.collapsed && now_.displacement > analysis_.thresholds.displacement)
-    return Stop::collapsed;
+  if (analysis_.stop.collapsed && now_.displacement > analysis_.thresholds.collapse()) return Stop::collapsed;
   if (analysis_.stop.settled_time > 0.0 && time - progress_.calm_since >= analysis_.stop.settled_time)
     return Stop::settled;
   return Stop::no;

@@ -54,7 +54,7 @@ void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, 
     summary->status = Status::stable;
     summary->message = fmt::format(
         "largest speed {:.3g} m/s <= threshold {:.3g} m/s, displacement {:.3g} m <= threshold {:.3g} m",
-        speed, thresholds.speed, displacement, thresholds.displacement);
+        speed, thresholds.speed, displacement, thresholds.collapse());
   }
 }
 
@@ -85,10 +85,10 @@ void judge_motion(const Analysis& analysis, const RunProgress& progress, const S
   } else if (progress.coarse_steps > 0) {
     summary->status = Status::unconverged;
     summary->message = coarse_text(analysis, progress);
-  } else if (displacement > analysis.thresholds.displacement) {
+  } else if (displacement > analysis.thresholds.collapse()) {
     summary->status = Status::collapsed;
     summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,
-                                   analysis.thresholds.displacement);
+                                   analysis.thresholds.collapse());
   } else {
     judge_rest(analysis.thresholds, progress.rest, displacement, speed, summary);
   }
