@@ -226,7 +226,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   progress_.worst.summarize(&summary);
   judge_motion(analysis_, progress_, report_.solve, &summary);
   if (scene_.supports.base_motion && summary.status != Status::unconverged)
-    summary.message += ", relative to the ground";
+    summary.message += "; displacements and speeds are relative to the ground";
   summary.warnings = elastic_impacts(analysis_, progress_);
   summary.message += stop_note(stop, analysis_);
   return summary;
