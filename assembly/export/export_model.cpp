@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/export/block_union.hpp"
 
 namespace cupola {
@@ -24,16 +24,11 @@ bool is_closed(const BlockSurface& surface) {
 /// True if the faces hang together by their vertices. The two arms of a stone of a groin vault have vertices
 /// of their own.
 bool is_connected(const BlockSurface& surface) {
-  std::vector<int> parent(surface.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets parts(surface.vertices.size());
   for (const std::vector<int>& face : surface.faces)
-    for (const int v : face) parent[root(v)] = root(face.front());
+    for (const int v : face) parts.join(v, face.front());
   return std::all_of(surface.faces.begin(), surface.faces.end(), [&](const std::vector<int>& face) {
-    return root(face.front()) == root(surface.faces.front().front());
+    return parts.root(face.front()) == parts.root(surface.faces.front().front());
   });
 }
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "generators/bond/drawing.hpp"
 #include "generators/bond/make_bond.hpp"
@@ -149,25 +149,19 @@ bool has_drawn_headers(const Masonry& masonry) {
 
 /// Makes one block of those that have the same letter at one place in two wythes.
 void join_headers(int member, BondPattern* pattern) {
-  std::vector<int> joined(pattern->blocks.size());
-  std::iota(joined.begin(), joined.end(), 0);
-  const auto root = [&](int block) {
-    while (joined[block] != block) block = joined[block] = joined[joined[block]];
-    return block;
-  };
+  DisjointSets joined(pattern->blocks.size());
   const auto letter = [&](int block) { return block == kVoid ? char{0} : pattern->blocks[block].letter; };
   for (int ring = 0; ring < pattern->num_rings; ++ring)
     for (int slice = 0; slice < pattern->num_slices(); ++slice)
       for (int wythe = 1; wythe < pattern->num_wythes; ++wythe) {
         const int inner = pattern->at(ring, slice, wythe - 1), outer = pattern->at(ring, slice, wythe);
         if (letter(inner) == 0 || letter(inner) != letter(outer)) continue;
-        const int a = root(inner), b = root(outer);
-        joined[std::max(a, b)] = std::min(a, b);
+        joined.join(inner, outer);
         for (const int block : {inner, outer}) pattern->blocks[block].member = member;
       }
   for (int& block : pattern->block_of) {
     if (block == kVoid) continue;
-    const int first = root(block);
+    const int first = joined.root(block);
     if (pattern->blocks[block].truncated) pattern->blocks[first].truncated = true;
     block = first;
   }

@@ -1,10 +1,10 @@
 #include <array>
 #include <filesystem>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "generators/importer/readers.hpp"
 
 namespace cupola {
@@ -26,21 +26,16 @@ void merge_equal_vertices(PolygonMesh* mesh) {
 
 std::vector<RawBlock> split_components(const PolygonMesh& mesh, const std::string& path) {
   if (mesh.faces.empty()) throw InputError(FileLocation{path}, "no faces in this file");
-  std::vector<int> parent(mesh.vertices.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets components(mesh.vertices.size());
   for (const auto& face : mesh.faces)
-    for (int v : face) parent[root(v)] = root(face[0]);
+    for (int v : face) components.join(v, face[0]);
 
   const std::string stem = std::filesystem::path(path).stem().string();
   std::map<int, size_t> block_of_root;
   std::vector<RawBlock> blocks;
   std::vector<int> local(mesh.vertices.size(), -1);
   for (const auto& face : mesh.faces) {
-    const auto [it, is_new] = block_of_root.try_emplace(root(face[0]), blocks.size());
+    const auto [it, is_new] = block_of_root.try_emplace(components.root(face[0]), blocks.size());
     if (is_new) blocks.push_back({stem, {path, 0, 0}, {}, {}, false, {}});
     PolygonMesh& part = blocks[it->second].mesh;
     part.faces.emplace_back();

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
 #include "generators/stereotomy/mesh_checks.hpp"
@@ -115,17 +115,6 @@ std::optional<Meeting> meeting_of(const Assembly& assembly, const ConvexShape& a
   return widest;
 }
 
-/// Connected components of the blocks (union-find).
-struct Islands {
-  explicit Islands(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-  int root(int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(int i, int j) { parent[root(i)] = root(j); }
-  std::vector<int> parent;
-};
-
 /// Of two blocks of different members, which these are and where the blocks lie.
 std::string places_of_members(const Assembly& assembly, int a, int b) {
   if (assembly.sheets.size() < 2) return {};
@@ -173,7 +162,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   std::vector<std::pair<int, int>> joints, touching;  // pairs of blocks; touching: at an edge or a corner
   std::vector<NarrowJoint> narrow;
   Overlaps overlaps;
-  Islands islands(assembly.blocks.size());
+  DisjointSets islands(assembly.blocks.size());
   const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
   report->max_overlap = -std::numeric_limits<double>::infinity();
   visit_near_pairs(assembly, tolerances.joint_gap, [&](int p, int q) {

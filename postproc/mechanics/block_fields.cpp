@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 
@@ -42,12 +42,6 @@ Vec3 displacement_at(const Assembly& assembly, const BlockTable& blocks, int blo
   return point - at_start;
 }
 
-/// Root of a union-find tree, with path halving.
-int root(std::vector<int>* parent, int i) {
-  while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
-  return i;
-}
-
 }  // namespace
 
 std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
@@ -82,16 +76,12 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
 
 std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
                                   double threshold) {
-  std::vector<int> parent(assembly.blocks.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto unite = [&parent](int a, int b) {
-    const int i = root(&parent, a), j = root(&parent, b);
-    parent[std::max(i, j)] = std::min(i, j);  // the block of lowest index is the root
-  };
+  const size_t num_blocks = assembly.blocks.size();
+  DisjointSets together(num_blocks);
   int first_fixed = -1;
-  for (size_t b = 0; b < parent.size(); ++b) {
+  for (size_t b = 0; b < num_blocks; ++b) {
     if (!assembly.blocks[b].fixed) continue;
-    if (first_fixed >= 0) unite(first_fixed, static_cast<int>(b));
+    if (first_fixed >= 0) together.join(first_fixed, static_cast<int>(b));
     first_fixed = first_fixed < 0 ? static_cast<int>(b) : first_fixed;
   }
   for (const JointWrench& joint : joints.wrenches) {
@@ -102,14 +92,14 @@ std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, 
                               displacement_at(assembly, frame.blocks, joint.block_a, point);
       relative = std::max(relative, difference.norm());
     }
-    if (relative <= threshold) unite(joint.block_a, joint.block_b);
+    if (relative <= threshold) together.join(joint.block_a, joint.block_b);
   }
   // Number the groups: the supports first, then in the order of first blocks.
-  std::vector<int> number(parent.size(), -1), group(parent.size());
+  std::vector<int> number(num_blocks, -1), group(num_blocks);
   int count = 0;
-  if (first_fixed >= 0) number[root(&parent, first_fixed)] = count++;
-  for (size_t b = 0; b < parent.size(); ++b) {
-    int& n = number[root(&parent, static_cast<int>(b))];
+  if (first_fixed >= 0) number[together.root(first_fixed)] = count++;
+  for (size_t b = 0; b < num_blocks; ++b) {
+    int& n = number[together.root(static_cast<int>(b))];
     if (n < 0) n = count++;
     group[b] = n;
   }

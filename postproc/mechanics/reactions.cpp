@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 
 namespace cupola {
@@ -47,26 +47,22 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
 }
 
 std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& joints) {
-  std::vector<int> parent(assembly.blocks.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  const int num_blocks = static_cast<int>(assembly.blocks.size());
+  DisjointSets connected(assembly.blocks.size());
   const auto fixed = [&assembly](int b) { return assembly.blocks[b].fixed; };
   for (const JointWrench& joint : joints.wrenches)
-    if (!fixed(joint.block_a) && !fixed(joint.block_b)) parent[root(joint.block_a)] = root(joint.block_b);
+    if (!fixed(joint.block_a) && !fixed(joint.block_b)) connected.join(joint.block_a, joint.block_b);
   std::map<int, int> sizes;
-  for (int b = 0; b < static_cast<int>(parent.size()); ++b)
-    if (!fixed(b)) ++sizes[root(b)];
+  for (int b = 0; b < num_blocks; ++b)
+    if (!fixed(b)) ++sizes[connected.root(b)];
   std::vector<int> order;  // roots, the largest part first, then by number
   for (const auto& [first, size] : sizes) order.push_back(first);
   std::stable_sort(order.begin(), order.end(), [&sizes](int a, int b) { return sizes[a] > sizes[b]; });
   std::map<int, int> number;
   for (size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<int>(i);
-  std::vector<int> parts(parent.size(), -1);
-  for (int b = 0; b < static_cast<int>(parts.size()); ++b)
-    if (!fixed(b)) parts[b] = number[root(b)];
+  std::vector<int> parts(num_blocks, -1);
+  for (int b = 0; b < num_blocks; ++b)
+    if (!fixed(b)) parts[b] = number[connected.root(b)];
   return parts;
 }
 

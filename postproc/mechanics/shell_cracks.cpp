@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
+
+#include "assembly/base/disjoint_sets.hpp"
 
 namespace cupola {
 namespace {
@@ -189,11 +190,6 @@ ShellCrack crack_of(const std::vector<OpenJoint>& open, std::vector<int> members
   return crack;
 }
 
-int root_of(std::vector<int>* parent, int k) {
-  while ((*parent)[k] != k) k = (*parent)[k] = (*parent)[(*parent)[k]];
-  return k;
-}
-
 }  // namespace
 
 std::vector<ShellCrack> shell_cracks(const Assembly& assembly, const ContactTable& contacts,
@@ -210,11 +206,10 @@ std::vector<ShellCrack> shell_cracks(const Assembly& assembly, const ContactTabl
     std::ranges::sort(blocks);
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
   }
-  std::vector<int> parent(open.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets joined(open.size());
   const auto join_with = [&](int k, int block) {
     for (const int other : of_block[block])
-      if (other > k && chains.follow(k, other)) parent[root_of(&parent, other)] = root_of(&parent, k);
+      if (other > k && chains.follow(k, other)) joined.join(other, k);
   };
   for (size_t k = 0; k < open.size(); ++k) {
     const JointWrench& j = joints.wrenches[open[k].joint];
@@ -225,7 +220,7 @@ std::vector<ShellCrack> shell_cracks(const Assembly& assembly, const ContactTabl
   }
   std::map<int, std::vector<int>> groups;
   for (size_t k = 0; k < open.size(); ++k)
-    groups[root_of(&parent, static_cast<int>(k))].push_back(static_cast<int>(k));
+    groups[joined.root(static_cast<int>(k))].push_back(static_cast<int>(k));
   std::vector<ShellCrack> cracks;
   for (auto& [root, members] : groups) cracks.push_back(crack_of(open, std::move(members), joints));
   std::ranges::stable_sort(cracks, std::ranges::greater(), &ShellCrack::width);

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
 
@@ -64,20 +64,16 @@ bool divides_base(const Case& scene, const std::string& setting) {
 std::vector<std::vector<int>> support_groups(const Assembly& assembly) {
   constexpr double kTouch = 1e-3;  // of the size of a block: supports closer than this touch
   const std::vector<Box> boxes = boxes_of(assembly);
-  std::vector<int> fixed, group(assembly.blocks.size());
-  std::iota(group.begin(), group.end(), 0);
+  std::vector<int> fixed;
   for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
     if (assembly.blocks[b].fixed) fixed.push_back(b);
-  const auto root = [&group](int b) {
-    while (group[b] != b) b = group[b] = group[group[b]];
-    return b;
-  };
+  DisjointSets touching(assembly.blocks.size());
   for (const int a : fixed)
     for (const int b : fixed)
       if (a < b && boxes[a].exteriorDistance(boxes[b]) <= kTouch * boxes[a].diagonal().norm())
-        group[std::max(root(a), root(b))] = std::min(root(a), root(b));
+        touching.join(a, b);
   std::map<int, std::vector<int>> found;
-  for (const int b : fixed) found[root(b)].push_back(b);
+  for (const int b : fixed) found[touching.root(b)].push_back(b);
   if (found.size() == 1)
     for (const int b : fixed) found[b] = {b};
   std::vector<std::vector<int>> groups;

@@ -1,21 +1,13 @@
 #include "solver/dynamics/islands.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_times.hpp"
 #include "solver/dynamics/time_step.hpp"
 
 namespace cupola {
-namespace {
-
-int root_of(std::vector<int>* parent, int i) {
-  while ((*parent)[i] != i) i = (*parent)[i] = (*parent)[(*parent)[i]];
-  return i;
-}
-
-}  // namespace
 
 ScenePart part_of(const Model& model, const State& state, const ContactSet& contacts,
                   const ContactMemories& memories, const std::vector<char>& chosen, char which) {
@@ -43,17 +35,15 @@ ScenePart part_of(const Model& model, const State& state, const ContactSet& cont
 }
 
 std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
-  std::vector<int> parent(model.num_free());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets islands(model.num_free());
   for (const Contact& contact : contacts.points) {
     const int a = model.free_index[contact.block_a], b = model.free_index[contact.block_b];
     if (a == ContactProblem::kFixed || b == ContactProblem::kFixed) continue;
-    // The smaller index becomes the root, which is therefore the first block of the island.
-    const int p = root_of(&parent, a), q = root_of(&parent, b);
-    parent[std::max(p, q)] = std::min(p, q);
+    islands.join(a, b);
   }
-  for (int i = 0; i < model.num_free(); ++i) parent[i] = root_of(&parent, i);
-  return parent;
+  std::vector<int> island_of(model.num_free());
+  for (int i = 0; i < model.num_free(); ++i) island_of[i] = islands.root(i);
+  return island_of;
 }
 
 int SleepState::num_asleep() const {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/csv_columns.hpp"
 #include "solver/analysis/record/record.hpp"
@@ -16,11 +16,6 @@ namespace cupola {
 namespace {
 
 constexpr double kStopped = 1e-3;  // speed relative to the fastest block below which a block is at rest
-
-int root_of(std::vector<int>& parent, int block) {
-  while (parent[block] != block) block = parent[block] = parent[parent[block]];
-  return block;
-}
 
 /// Motion of each joint. The contacts of one joint need not be consecutive in the set.
 std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u, double fastest) {
@@ -58,22 +53,20 @@ std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u
 /// Blocks connected by closed joints form a group. Blocks at rest are group 0; moving groups count from 1.
 void find_groups(const Model& model, Mechanism* mechanism) {
   const int num_blocks = static_cast<int>(model.assembly->blocks.size());
-  std::vector<int> parent(num_blocks);
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets groups(num_blocks);
   for (const MovingJoint& joint : mechanism->joints)
-    if (joint.motion == JointMotion::closed)
-      parent[root_of(parent, joint.block_a)] = root_of(parent, joint.block_b);
+    if (joint.motion == JointMotion::closed) groups.join(joint.block_a, joint.block_b);
   const auto moves = [&](int block) {
     const int i = model.free_index[block];
     return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > kStopped;
   };
   std::vector<bool> group_moves(num_blocks, false);
   for (int block = 0; block < num_blocks; ++block)
-    if (moves(block)) group_moves[root_of(parent, block)] = true;
+    if (moves(block)) group_moves[groups.root(block)] = true;
   std::vector<int> number(num_blocks, 0);
   mechanism->group.assign(num_blocks, 0);
   for (int block = 0; block < num_blocks; ++block) {
-    const int root = root_of(parent, block);
+    const int root = groups.root(block);
     if (!group_moves[root]) continue;
     if (number[root] == 0) number[root] = ++mechanism->num_groups;
     mechanism->group[block] = number[root];
