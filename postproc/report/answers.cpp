@@ -85,12 +85,14 @@ std::string first_clause(const std::string& message) {
   return message.substr(start, message.find("; ", start) - start);
 }
 
-/// The last clause of the message of a staged run: what the search for the least property has found, if not
-/// a value of all stages.
-KeyNumber least_answer(const Evaluation& e) {
-  const std::string& message = e.summary.message;
+std::string last_clause(const std::string& message) {
   const size_t end = message.rfind("; ");
-  const std::string clause = message.substr(end == std::string::npos ? 0 : end + 2);
+  return message.substr(end == std::string::npos ? 0 : end + 2);
+}
+
+/// What the search for the least property of fresh mortar has found, if not a value of all stages.
+KeyNumber least_answer(const Evaluation& e) {
+  const std::string clause = last_clause(e.summary.message);
   return {"Critical fresh " + std::string(to_string(e.scene.analysis.staged.least)),
           clause.starts_with("every stage stands") ? "0"
           : clause.starts_with("no fresh")         ? "none"
@@ -133,6 +135,8 @@ KeyNumber margin_answer(const Evaluation& e) {
     return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
             fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees", robust->directions,
                         robust->azimuth_deg)};
+  if (e.scene.analysis.robustness > 0 && at_rest(e))
+    return {"Horizontal acceleration", "none found", last_clause(e.summary.message)};
   if (is_limit(e) && at_rest(e))
     return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "no limit",
             e.summary.message.substr(e.summary.message.rfind(": ") + 2)};

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "assembly/base/error.hpp"
-#include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/normal_equations.hpp"
 #include "solver/conic/scaled_problem.hpp"
 
@@ -58,6 +57,20 @@ bool open_contacts(const ConicProblem& problem, ConicSolution* solution) {
   solution->v = v * (-problem.multiplier_cost[0] / power);
   solution->dual = dual_value(problem, *solution);
   return true;
+}
+
+ConicBounds multiplier_bounds(const ConicProblem& problem, double enough, ConicSolution* solution) {
+  ConicBounds bounds = conic_bounds(problem, *solution);
+  if (ConicSolution opened = *solution;
+      bounds.upper - bounds.lower > enough && open_contacts(problem, &opened)) {
+    const ConicBounds improved = conic_bounds(problem, opened);
+    if (improved.lower > bounds.lower) {
+      bounds = improved;
+      *solution = std::move(opened);
+    }
+  }
+  bounds.lower = std::min(bounds.lower, bounds.upper);
+  return bounds;
 }
 
 }  // namespace cupola

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/conic/conic_problem.hpp"
+#include "solver/conic/conic_bounds.hpp"
 
 namespace cupola {
 
@@ -21,5 +21,9 @@ VecX opening_motion(const ConicProblem& problem);
 /// digits of the limit. So much of opening_motion() is added that all s that must lie in Y* do; then v is
 /// scaled back to e + P^T v = 0. Returns false, and leaves the solution as it was, without such a motion.
 [[nodiscard]] bool open_contacts(const ConicProblem& problem, ConicSolution* solution);
+
+/// Bounds of the value of such a problem. Where rounding keeps them farther apart than `enough`, the mechanism
+/// is improved by open_contacts().
+ConicBounds multiplier_bounds(const ConicProblem& problem, double enough, ConicSolution* solution);
 
 }  // namespace cupola

@@ -19,6 +19,12 @@ DirectLimit not_found(DirectLimit searched, std::string message) {
   return limit;
 }
 
+std::string unsolved_end(double value) {
+  return fmt::format(
+      "the solve at {:g}, an end of the search (analysis.limit.low or high), did not converge: move that end",
+      value);
+}
+
 std::string at_both_ends(bool admissible, double low, double high) {
   return admissible
              ? fmt::format(

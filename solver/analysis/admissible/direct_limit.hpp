@@ -60,7 +60,7 @@ DirectLimit limit_of_loads(
 /// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need
 /// (pull_solve.hpp). Friction and extent of the joints, on which the conditions depend linearly: Newton's
 /// method with the derivative that the mechanism gives, on rough solves, until its next step would not leave
-/// the width required; then a solve on either side of the root; friction below 1e-5 counts as none.
+/// the width required; then a solve on either side of the root; friction counts from 1e-5, with cohesion 1e-3.
 /// Thickness: the secant method. A bracket that always contains the root safeguards both.
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
                             LimitSearch::Parameter parameter, const ReportTrial& report);
@@ -76,6 +76,8 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
 
 /// The search ends without a limit: why. Keeps the counts of what was solved.
 DirectLimit not_found(DirectLimit searched, std::string message);
+/// Why: the solve at an end of the bracket did not decide, and what to try.
+std::string unsolved_end(double value);
 /// Why: the structure stands, or moves, at both ends of the bracket, and what to try.
 std::string at_both_ends(bool admissible, double low, double high);
 

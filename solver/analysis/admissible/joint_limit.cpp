@@ -16,6 +16,9 @@ namespace {
 constexpr int kMaxTrials = 60;
 /// Least friction of a search: below it rounding of the geometry decides whether level beds slide.
 constexpr double kNoFriction = 1e-5;
+/// The same of joints with cohesion c, whose cones begin at a pull of c over the friction: beyond these, few
+/// solves converge.
+constexpr double kLeastOfMortar = 1e-3;
 
 /// Solves at values of the parameter, counts and reports them.
 class PullTrials {
@@ -117,14 +120,10 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
                             LimitSearch::Parameter parameter, const ReportTrial& report) {
   const bool friction = parameter == LimitSearch::Parameter::friction;
   PullTrials trials(scene_at, report);
-  if (friction) low = std::max(low, kNoFriction);
+  if (friction) low = std::max(low, trials.joints_at(high).strength.empty() ? kNoFriction : kLeastOfMortar);
   Ends ends = first_ends(low, high, relative_width, parameter, &trials);
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
-    if (!end.decided)
-      return not_found(
-          trials.counts(),
-          fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
-                      end.value));
+    if (!end.decided) return not_found(trials.counts(), unsolved_end(end.value));
   if (ends.below.admissible() == ends.above.admissible()) {
     DirectLimit limit = not_found(trials.counts(), at_both_ends(ends.below.admissible(), low, high));
     const bool needs_none = friction && low == kNoFriction && ends.below.admissible();

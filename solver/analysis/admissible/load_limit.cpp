@@ -102,21 +102,6 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
   return limit;
 }
 
-/// Both bounds of the multiplier. Where rounding keeps them apart, the mechanism is improved.
-ConicBounds bounds_of(const ConicProblem& problem, double enough, ConicSolution* solution) {
-  ConicBounds bounds = conic_bounds(problem, *solution);
-  if (ConicSolution opened = *solution;
-      bounds.upper - bounds.lower > enough && open_contacts(problem, &opened)) {
-    const ConicBounds improved = conic_bounds(problem, opened);
-    if (improved.lower > bounds.lower) {
-      bounds = improved;
-      *solution = std::move(opened);
-    }
-  }
-  bounds.lower = std::min(bounds.lower, bounds.upper);
-  return bounds;
-}
-
 }  // namespace
 
 DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
@@ -125,10 +110,7 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   DirectLimit limit;
   const std::optional<bool> at_low = has_state(scene_at, low, &limit, report);
   const std::optional<bool> at_high = has_state(scene_at, high, &limit, report);
-  if (!at_low || !at_high)
-    return not_found(std::move(limit),
-                     fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end",
-                                 in_unit(at_low ? high : low)));
+  if (!at_low || !at_high) return not_found(std::move(limit), unsolved_end(in_unit(at_low ? high : low)));
   if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   const double towards = *at_low ? 1.0 : -1.0;
@@ -139,7 +121,8 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     ++limit.trials;
     limit.iterations += solution.iterations;
     const double step = solution.multipliers[0];
-    const ConicBounds bounds = bounds_of(problem, 0.1 * relative_width * std::abs(x + step), &solution);
+    const ConicBounds bounds =
+        multiplier_bounds(problem, 0.1 * relative_width * std::abs(x + step), &solution);
     if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
         !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower))
       return not_found(std::move(limit), fmt::format("the linearised problem at {:.8g} is {}", in_unit(x),

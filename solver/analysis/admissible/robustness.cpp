@@ -10,7 +10,7 @@
 #include "assembly/case/limit_parameter.hpp"
 #include "solver/analysis/admissible/rigid_scene.hpp"
 #include "solver/analysis/statics/model_symmetry.hpp"
-#include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/opening_motion.hpp"
 #include "solver/conic/solve_conic.hpp"
 #include "solver/runtime/threads.hpp"
 
@@ -30,13 +30,14 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
   const Model model = make_model(case_at(pushed, 1.0), *rest.assembly);
   const ConicProblem problem = with_multiplier(
       rest.problem, applied_forces(model, rest.start, rest.start.time) - rest.problem.load, -1.0);
-  const ConicSolution solution = solve_conic(problem);
+  ConicSolution solution = solve_conic(problem);
   if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded) return {};
-  const ConicBounds bounds = conic_bounds(problem, solution);
   // Rounding may stall a solve whose bounds are close.
   constexpr double kClose = 1e-4;
+  const ConicBounds bounds =
+      multiplier_bounds(problem, 0.1 * kClose * std::abs(solution.multipliers[0]), &solution);
   if (!(bounds.relative_gap() <= kClose)) return {};
-  return {true, -bounds.upper, -std::min(bounds.lower, bounds.upper)};
+  return {true, -bounds.upper, -bounds.lower};
 }
 
 }  // namespace

@@ -49,7 +49,10 @@ LeastSearch::Result LeastSearch::find(const TryValue& solve) {
     result.needs_none = low == 0.0 && trial->outcome == equilibrium;
     if (result.needs_none) return result;
     if (trial->outcome == equilibrium) high = std::min(high, low);
-    if (low == 0.0) break;  // undecided: bisect() says so
+    if (low == 0.0) {
+      result.bracket.message = "the solve at 0 did not converge";
+      return result;
+    }
     low = 0.0;
   }
   // 3. Between the two
