@@ -75,6 +75,7 @@ KeyNumber critical_answer(const Evaluation& e) {
 
 /// How to compute the margins of this case.
 std::string command_for_margins(const Evaluation& e) {
+  if (is_stage(e.last.frame.role)) return "`analysis.staged.least: cohesion`";
   const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
   return "cupola assess " + file.filename().string();
 }
@@ -138,7 +139,8 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (e.scene.analysis.robustness > 0 && at_rest(e))
     return {"Horizontal acceleration", "none found", last_clause(e.summary.message)};
   if (is_limit(e) && at_rest(e))
-    return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "no limit",
+    return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)),
+            stands(e.summary.status) ? "no limit" : "unknown",
             e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
   if (is_limit(e) && moves(e.summary.status))
     return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "none",

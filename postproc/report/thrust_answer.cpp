@@ -111,12 +111,27 @@ bool only_weighs(const Evaluation& e) {
          });
 }
 
+/// Names of the members whose courses interlock.
+std::vector<std::string> interlocked(const std::vector<const Member*>& members) {
+  std::vector<std::string> names;
+  for (const Member* member : members)
+    if (!std::ranges::all_of(bonds_of(*member),
+                             [](const Bond* bond) { return std::holds_alternative<StackBond>(*bond); }))
+      names.push_back(member->name);
+  return names;
+}
+
 /// An inward thrust on rings that only weigh: they pull with it over 2 pi, by the friction of their bond.
-std::string pull_of_rings(double inwards) {
-  return fmt::format(
-      ", where the courses hold together by a hoop tension of {} in all, through the friction of their bond; "
-      "masonry cracked along meridians has none: try `bond: {{type: stack}}`",
+std::string pull_of_rings(const Geometry& geometry, double inwards) {
+  std::string text = fmt::format(
+      ", where the courses hold together by a hoop tension of {} in all, through the friction of their bond",
       force_text(inwards / (2.0 * std::numbers::pi)));
+  const std::vector<const Member*> members = members_of(geometry);
+  const std::vector<std::string> bonded = interlocked(members);
+  if (geometry.imported || bonded.empty()) return text;
+  return text + fmt::format("; masonry cracked along meridians has none: try `bond: {{type: stack}}`{}{}",
+                            members.size() > 1 ? " of " : "",
+                            members.size() > 1 ? fmt::format("{}", fmt::join(bonded, " and ")) : "");
 }
 
 KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
@@ -138,7 +153,7 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
     if (std::isfinite(least(range)) && pushing.size() == 1 && pushing.front()->closed && only_weighs(e))
-      detail += pull_of_rings(-least(range));
+      detail += pull_of_rings(e.scene.geometry, -least(range));
   }
   return {"Outward thrust",
           fmt::format("{} to {}{}", end_text(range.min, least(range), range),

@@ -9,7 +9,8 @@ namespace cupola {
 ///
 /// With --members it lists the runs that the study needs; with --runs it measures the finished ones and
 /// writes study.html and a CSV file per table; with --pages it also writes the tables and pictures of the
-/// documentation. The exit code is `failed` if runs are missing, which are then named and no page is written.
+/// documentation. Missing runs are named. They make the exit code `failed`, except of a page of answers whose
+/// run of the verdict has ended.
 ExitCode run_study(int argc, const char* const* argv);
 
 }  // namespace cupola

@@ -146,8 +146,8 @@ void write_nothing_found(const Case& scene, const Assembly& assembly, const Anal
   summarize_frame(frame, own.model, summary);
 }
 
-/// Writes an admissible state under the loads of the case: without a limit no value stands out. False if
-/// there is none.
+/// Writes an admissible state of the case itself: no value that the search tried stands out. False if there is
+/// none.
 bool write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
                          Summary* summary) {
   DirectLimit own;
@@ -197,11 +197,10 @@ void summarize_not_found(const Case& scene, const Assembly& assembly, const Dire
   const std::string name = to_string(scene.analysis.limit.parameter);
   const bool state = limit.gamma.size() > 0;
   summary->message = name + ": " + limit.message;
-  bool decides = limit.ending == DirectLimit::Ending::throughout && holds_the_case(scene);
-  if (limit.ending == DirectLimit::Ending::unlimited)
-    decides = write_state_of_case(scene, assembly, sinks, summary);
-  else if (state)
-    write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
+  bool decides = limit.ending == DirectLimit::Ending::unlimited ||
+                 (limit.ending == DirectLimit::Ending::throughout && holds_the_case(scene));
+  if (state)
+    decides = write_state_of_case(scene, assembly, sinks, summary) && decides;
   else if (limit.mechanism.size() > 0)
     write_motion(limit, name, sinks, summary);
   else

@@ -61,6 +61,14 @@ TEST(HoopTension, AnInwardThrustOfRingsIsTheirPull) {
   EXPECT_NE(thrust_answer(running)->detail.find(pull), std::string::npos) << thrust_answer(running)->detail;
   EXPECT_EQ(thrust_answer(stack)->detail.find("hoop tension"), std::string::npos)
       << thrust_answer(stack)->detail;
+  EXPECT_TRUE(thrust_answer(running)->detail.ends_with("try `bond: {type: stack}`"));
+  Evaluation on_a_drum = running;  // of a dome in stack bond, which needs no advice
+  Geometry& geometry = on_a_drum.scene.geometry;
+  geometry.members = {geometry};
+  geometry.members[0].name = "drum";
+  geometry.bond = StackBond{};
+  EXPECT_TRUE(thrust_answer(on_a_drum)->detail.ends_with("try `bond: {type: stack}` of drum"))
+      << thrust_answer(on_a_drum)->detail;
 }
 
 }  // namespace

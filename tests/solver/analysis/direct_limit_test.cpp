@@ -284,6 +284,19 @@ TEST(DirectLimit, WhatStandsOrMovesThroughoutTheBracketHasNoCriticalFriction) {
   EXPECT_EQ(within.status, Status::moving);
 }
 
+// The numbers without a critical value are those of the case, not of an end of the bracket.
+TEST(DirectLimit, WithoutACriticalValueTheStateIsThatOfTheCase) {
+  const Assembly arch = testing::make_arch({.voussoirs = 12, .thickness = 0.4});
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  const Summary s = run_limit(limit_case(Parameter::thickness, 0.5, 2.0, 0.7), arch, sinks).value();
+  EXPECT_NE(s.message.find("stands at both ends"), std::string::npos) << s.message;
+  EXPECT_NEAR(s.weight_N / free_weight(arch, testing::kG), 1.0, 1e-12);
+  EXPECT_NEAR(s.support_reaction_N.z() / s.weight_N, 1.0, 1e-8);
+  ASSERT_EQ(frames.size(), 1u);
+}
+
 // A slab that its weight presses down and as much again pushes along x slides at a friction of 0.5. No force
 // along y changes that; one against x holds it from 0.5 to 1.5 times its weight, and the bracket misses both.
 TEST(DirectLimit, WhatNoLoadHoldsMovesAtEveryValue) {
