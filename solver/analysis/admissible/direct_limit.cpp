@@ -21,7 +21,7 @@ DirectLimit not_found(DirectLimit searched, std::string message) {
 
 std::string unsolved_end(double value) {
   return fmt::format(
-      "the solve at {:g}, an end of the search (analysis.limit.low or high), did not converge: move that end",
+      "the solve at {:g}, an end of the search (analysis.limit.low or high), did not converge; move that end",
       value);
 }
 
