@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -53,12 +54,16 @@ void Section::file(const std::string& key, std::string& path, const std::string&
   document(key, or_folder ? "file or folder" : "file", {}, "none", meaning);
   const CaseNode* node = look_up_scalar(key);
   if (!node) return;
-  const std::string& from = is_bundled(node->where.file) ? node->where.file : case_file_;
-  path = path_inside(std::filesystem::path(from).parent_path().string(), from, node->text, node->where);
+  // Of a bundled case that this one extends, or in its effective YAML.
+  const bool named = node->text.starts_with(kBundledPrefix);
+  const bool bundled = named || (is_bundled(node->where.file) && !is_bundled(case_file_));
+  const std::string name = named ? node->text.substr(std::string_view(kBundledPrefix).size()) : node->text;
+  const std::string from = bundled ? (std::filesystem::path(bundled_folder()) / "case").string() : case_file_;
+  path = path_inside(std::filesystem::path(from).parent_path().string(), from, name, node->where);
   if (!std::filesystem::is_regular_file(path) && !(or_folder && std::filesystem::is_directory(path)))
     fail(key, *node, "no such file in the folder of the case");
   if (files_) files_->push_back(path);
-  record(key, node->text, true);
+  record(key, bundled ? kBundledPrefix + name : name, true);
 }
 
 bool Section::read_number_key(const std::string& key, double& value, const NumberRule& rule) {

@@ -31,6 +31,9 @@ TEST(BundledCase, FindsItsOwnFiles) {
   const Case mine = read_case(scratch.write("my_portal.yaml", "extends: cupola:portal\n"));
   EXPECT_EQ(mine.geometry.imported->path, bundled_folder() + "/portal.obj");
   EXPECT_TRUE(std::ranges::count(mine.inputs, bundled_folder() + "/portal.obj") == 1);
+  const Case again = read_case(scratch.write("run.yaml", mine.effective_yaml));
+  EXPECT_EQ(again.geometry.imported->path, mine.geometry.imported->path);
+  EXPECT_EQ(again.effective_yaml, mine.effective_yaml);
   scratch.write("portal.obj", "o a\n");
   const Case own = read_case(
       scratch.write("own.yaml", "extends: cupola:portal\ngeometry: {import: {file: portal.obj}}\n"));
