@@ -124,8 +124,8 @@ void add_moment(const Vec3& moment, int number, const Block& block, int time,
   const double arm = 0.5 * std::cbrt(block.volume), force = moment.norm() / (4.0 * arm);  // m, N
   const Vec3 axis = moment.normalized(), u = axis.unitOrthogonal(), v = axis.cross(u);
   for (const double sign : {1.0, -1.0}) {
-    forces->push_back({number, block.centroid + sign * arm * u, sign * force * v, time});
-    forces->push_back({number, block.centroid + sign * arm * v, -sign * force * u, time});
+    forces->push_back({number, block.centroid + sign * arm * u, sign * force * v, time, true});
+    forces->push_back({number, block.centroid + sign * arm * v, -sign * force * u, time, true});
   }
 }
 

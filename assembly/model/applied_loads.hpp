@@ -14,6 +14,7 @@ struct PointForce {
   Vec3 point = Vec3::Zero();  ///< m, world
   Vec3 force = Vec3::Zero();  ///< N, world
   int time = kDeadLoad;       ///< index into load_times()
+  bool of_moment = false;     ///< one of the forces that stand for a moment on the block
 };
 
 /// All loads of a case except the weight of the blocks: lantern and top load, distributed over the top faces

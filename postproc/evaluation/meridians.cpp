@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -131,7 +132,17 @@ std::string in_file_names(std::string text) {
 }
 
 ThrustInput thrust_input(const Evaluation& e, const FrameEvaluation& frame) {
-  return {&e.assembly, &e.shell, &frame.frame.contacts, &frame.joints, frame.from_below, frame.gravity};
+  std::vector<PointForce> loads = frame.loads;
+  const TieTable& ties = frame.frame.ties;
+  for (int i = 0; i < ties.size(); ++i) {
+    const Vec3 on_b = tie_force_on_b(ties, i);
+    const int a = ties.block_a[i], b = ties.block_b[i];
+    loads.push_back({a, ties.point_a[i], -on_b});
+    loads.push_back({b, ties.point_b[i], on_b});
+  }
+  std::ranges::stable_sort(loads, {}, &PointForce::block);
+  return {&e.assembly,      &e.shell,      &frame.frame.contacts, &frame.joints,
+          frame.from_below, frame.gravity,           std::move(loads)};
 }
 
 std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {

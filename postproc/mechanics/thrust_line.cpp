@@ -48,8 +48,24 @@ double overlap(const BlockBed& block, double center, double width) {
   return half > 0.0 ? std::max(0.0, common) / (2.0 * half) : 0.0;
 }
 
-/// Wrench on the piece of a block above a bed inside the block: it balances the weight of the piece and its
-/// contact forces.
+/// Adds what balances the loads on the piece of a block above a bed inside the block.
+void balance_loads(const ThrustInput& in, int block, int bed, Wrench* w) {
+  const std::vector<BlockBed>& beds = in.shell->blocks[bed];
+  const auto own = std::ranges::lower_bound(beds, block, {}, &BlockBed::block);
+  CUPOLA_ASSERT(own != beds.end() && own->block == block);
+  const Plane& plane = own->plane;
+  const double upwards = std::copysign(1.0, plane.normal.dot(in.shell->direction(bed)));
+  const double rounding = 1e-9 * std::cbrt(in.assembly->blocks[block].volume);  // m, of a load at the bed
+  for (auto on = std::ranges::lower_bound(in.loads, block, {}, &PointForce::block);
+       on != in.loads.end() && on->block == block; ++on) {
+    const PointForce& load = *on;
+    const Vec3& at = load.of_moment ? in.assembly->blocks[block].centroid : load.point;
+    if (upwards * (plane.normal.dot(at) - plane.offset) >= -rounding)
+      w->add_force(load.point, -load.force);
+  }
+}
+
+/// Wrench on the piece of a block above a bed inside the block, see ThrustLine.
 Wrench wrench_through(const ThrustInput& in, int block, int bed) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
@@ -70,6 +86,7 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
       if (ring >= bed) w.add_force(c.point[row], sign * c.force[row]);
     }
   }
+  balance_loads(in, block, bed, &w);
   return w;
 }
 

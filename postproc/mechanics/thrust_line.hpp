@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly/model/applied_loads.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
 #include "postproc/mechanics/shell.hpp"
 
@@ -45,7 +46,8 @@ struct ThrustPoint {
 ///   about the axis into the meridian plane. Where a herringbone crosses, several narrow blocks share the
 ///   strip.
 /// - If the bed runs through a block, the wrench is the one that balances the piece of the block above the
-///   bed.
+///   bed: its weight, its contact forces, and the loads and ties that act on it. A load at the bed itself is
+///   on the piece; a moment acts at the centroid of the block.
 /// - The position of each block's resultant is measured through the thickness on the block's own bed. The
 ///   position of the strip is the mean of these, weighted by the normal forces on the bed, and is drawn on
 ///   the meridian. In an arch and in a shell with wythes it is the mean over the contact points, weighted in
@@ -57,13 +59,13 @@ struct ThrustPoint {
 /// up to that of the whole thickness.
 struct ThrustLine {
   std::string name;
-  double azimuth_deg = 0.0;          ///< about its axis, from the x axis of that sheet
-  Sheet axis;                        ///< the lowest sheet of its stack
-  bool arch = false;                 ///< along an arch, without azimuth
-  std::optional<int> wythe;          ///< none: of the whole thickness
-  std::vector<ThrustPoint> points;   ///< from the springing upwards
-  std::vector<Vec3> envelope;        ///< m, intersections of successive lines of action
-  int undefined = 0;                 ///< number of points of undefined position
+  double azimuth_deg = 0.0;         ///< about its axis, from the x axis of that sheet
+  Sheet axis;                       ///< the lowest sheet of its stack
+  bool arch = false;                ///< along an arch, without azimuth
+  std::optional<int> wythe;         ///< none: of the whole thickness
+  std::vector<ThrustPoint> points;  ///< from the springing upwards
+  std::vector<Vec3> envelope;       ///< m, intersections of successive lines of action
+  int undefined = 0;                ///< number of points of undefined position
   bool inside = false;               ///< every point of defined position lies between the skins
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;
@@ -81,6 +83,7 @@ struct ThrustInput {
   const JointWrenches* joints = nullptr;
   std::vector<Wrench> from_below;
   Vec3 gravity = Vec3::Zero();
+  std::vector<PointForce> loads = {};  ///< those of ties included, in the order of their blocks
 };
 
 /// Wrench across a bed within the width of one block: on the part above, about the block's centroid. If the

@@ -115,8 +115,8 @@ TEST(ThrustLine, PushAlongTheBedHardlyMovesTheResultant) {
   EXPECT_NEAR(line.points[0].position, 0.25 - 0.04, 0.02);
 }
 
-// One block three rings high: a bed inside it carries the weight of the piece above.
-TEST(ThrustLine, BedInsideABlockCarriesThePieceAbove) {
+/// A support under one block three rings high, of 1.2 x 0.8 x 1.5 m.
+Assembly tall_block() {
   Assembly a = test::column(3);
   for (Part& part : a.parts) part.block = std::min(part.block, 1);
   a.blocks.resize(2);
@@ -128,22 +128,54 @@ TEST(ThrustLine, BedInsideABlockCarriesThePieceAbove) {
     if (horizontal && z > 0.4 && z < 1.1) a.face_kinds[f] = FaceKind::internal;
   }
   compute_mass_properties(&a);
-  const Frame frame = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4);
+  return a;
+}
+
+/// The thrust line of the tall block under its weight and loads of 1000 N down in all.
+ThrustLine line_of_tall_block(const std::vector<PointForce>& loads) {
+  const Assembly a = tall_block();
+  const Frame frame = test::column_at_rest(a, 9.81, loads.empty() ? 0.0 : 1000.0, 0.6, 0.4);
   const Shell shell = shell_of(a, Vec3::UnitZ());
-  ASSERT_EQ(shell.num_rings(), 3);
-  for (const auto& bed : shell.beds) ASSERT_EQ(bed.size(), 1u);
-  EXPECT_FALSE(shell.beds[0][0].internal);
-  EXPECT_TRUE(shell.beds[1][0].internal);
+  EXPECT_TRUE(shell.beds[1].front().internal);
   const JointWrenches joints = joint_wrenches(a, frame.contacts, shell);
-  const ThrustInput input{&a,           &shell, &frame.contacts, &joints, wrenches_from_below(a, joints),
-                          {0, 0, -9.81}};
-  const ThrustLine line = thrust_line(input, "m", std::nullopt);
+  ThrustInput input{&a, &shell, &frame.contacts, &joints, wrenches_from_below(a, joints), {0, 0, -9.81}};
+  input.loads = loads;
+  return thrust_line(input, "m", std::nullopt);
+}
+
+// A bed inside a block carries the weight of the piece above and the loads on it, those at the bed included.
+TEST(ThrustLine, BedInsideABlockCarriesThePieceAbove) {
   const double ring_weight = 0.48 * 1800.0 * 9.81;
-  ASSERT_EQ(line.points.size(), 3u);
-  for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(line.points[k].v, (3 - k) * ring_weight, 1e-9 * ring_weight);
-    EXPECT_NEAR(line.points[k].position, 0.5, 1e-12);
+  const Vec3 down(0, 0, -1000);
+  const auto at = [](double z) { return Vec3(0.6, 0.4, z); };
+  struct Loaded {
+    std::vector<PointForce> loads;
+    double v[3];  // N, of the loads, at each bed
+  };
+  for (const Loaded& loaded :
+       {Loaded{{}, {0, 0, 0}}, Loaded{{{1, at(1.5), down}}, {1000, 1000, 1000}},
+        Loaded{{{1, at(0.75), down}}, {1000, 1000, 0}}, Loaded{{{1, at(0.5), down}}, {1000, 1000, 0}},
+        Loaded{{{0, at(1.5), 7.0 * down}, {1, at(1.2), 0.4 * down}, {1, at(0.7), 0.6 * down}},
+               {1000, 1000, 400}}}) {
+    const ThrustLine line = line_of_tall_block(loaded.loads);
+    ASSERT_EQ(line.points.size(), 3u);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_NEAR(line.points[k].v, (3 - k) * ring_weight + loaded.v[k], 1e-9 * ring_weight) << k;
+      EXPECT_NEAR(line.points[k].position, 0.5, 1e-12) << k;
+    }
   }
+}
+
+// The forces of a couple that stands for a moment at the centroid, 0.75 m high, lie on both sides of the bed
+// at 0.5 m. Together they are no force.
+TEST(ThrustLine, MomentInsideABlockIsNotDivided) {
+  const Vec3 along(0, 1e4, 0);
+  const ThrustLine line = line_of_tall_block({{1, {0.6, 0.4, 1.5}, {0, 0, -1000}},
+                                              {1, {0.6, 0.4, 1.2}, along, PointForce::kDeadLoad, true},
+                                              {1, {0.6, 0.4, 0.3}, -along, PointForce::kDeadLoad, true}});
+  ASSERT_EQ(line.points.size(), 3u);
+  EXPECT_NEAR(line.points[1].force.y(), 0.0, 1e-9);
+  EXPECT_NEAR(line.points[2].force.y(), 0.0, 1e-9) << "the moment acts below";
 }
 
 // Beds of 1.2 x 0.8 m, whose four corners stand for 0.24 m2 each. A force in the middle presses on the whole
