@@ -76,19 +76,21 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Median width in azimuth of the standard blocks of the courses [first, end), rad.
+/// Median width in azimuth of the standard blocks of the courses [first, end), of all where none is, rad.
 double standard_width(const Assembly& assembly, const Shell& shell, int first, int end) {
   const Sheet axis = assembly.axis_of(first);
   std::map<int, double> widths;  // rad, by block: range of azimuths on its own bed
   for (int bed = first; bed < end; ++bed)
     for (const BedFacet& facet : shell.beds[bed])
-      if (!facet.internal && (assembly.blocks[facet.block].kind == BlockKind::standard ||
-                              assembly.blocks[facet.block].kind == BlockKind::imported))
+      if (!facet.internal)
         widths[facet.block] +=
             std::abs(wrapped(azimuth(axis.own(facet.intrados_b)) - azimuth(axis.own(facet.intrados_a))));
-  std::vector<double> values;
-  for (const auto& [block, width] : widths) values.push_back(width);
-  return median(std::move(values));
+  std::vector<double> all, standard;
+  for (const auto& [block, width] : widths) {
+    all.push_back(width);
+    if (assembly.blocks[block].kind != BlockKind::herringbone) standard.push_back(width);
+  }
+  return median(standard.empty() ? std::move(all) : std::move(standard));
 }
 
 /// Per free block of a shell with wythes, the mean vector from the inner to the outer edges of its bed

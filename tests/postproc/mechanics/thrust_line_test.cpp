@@ -62,6 +62,16 @@ TEST(ThrustLine, PositionAndResultantAreFoundAtEveryAzimuth) {
   }
 }
 
+// The strip is as wide as a standard block, or as the blocks that are there.
+TEST(ThrustLine, VaultOfUprightsAloneHasAStrip) {
+  MeridianScene scene(3, 12, 0.0, 0.3, -100.0, 1000.0);
+  for (Block& block : scene.assembly.blocks) block.kind = BlockKind::herringbone;
+  scene.shell = shell_of(scene.assembly, Vec3::UnitZ());
+  const ThrustLine line = thrust_line(scene.input(), "m", 0.0);
+  ASSERT_EQ(line.points.size(), 3u);
+  EXPECT_NEAR(line.points.front().v, 1000.0, 1e-9);
+}
+
 TEST(ThrustLine, LineOutsideTheThicknessIsReported) {
   const MeridianScene scene(4, 12, 0.0, 1.1, -100.0, 1000.0);
   const ThrustLine line = thrust_line(scene.input(), "m", 0.0);
