@@ -4,7 +4,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/export.hpp"
-#include "assembly/export/placed_assembly.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/warnings.hpp"
 #include "postproc/tables/mesh_parts.hpp"
@@ -29,13 +28,6 @@ ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, co
   return out;
 }
 
-/// Where a motion or a path ended; none for equilibria in the geometry as built.
-std::vector<Eigen::Isometry3d> poses_at_end(const Evaluation& e) {
-  const FrameRole role = e.last.frame.role;
-  if (role != FrameRole::step && role != FrameRole::path) return {};
-  return poses_of(e.assembly, e.last.frame.blocks);
-}
-
 }  // namespace
 
 ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) {
@@ -44,7 +36,7 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   const EvaluatedRun run = evaluate_run(input);
   const Evaluation& e = run.evaluation;
   std::vector<std::string> warnings = e.warnings;
-  ExportModel model{e.assembly, poses_at_end(e), {}, common_scale(e)};
+  ExportModel model{e.assembly, e.last.poses.of_block, {}, common_scale(e)};
   if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)
       model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));

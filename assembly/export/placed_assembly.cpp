@@ -15,6 +15,11 @@ std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const BlockTab
   return poses;
 }
 
+std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const Frame& frame) {
+  const bool moves = frame.role == FrameRole::step || frame.role == FrameRole::path;
+  return moves ? poses_of(assembly, frame.blocks) : std::vector<Eigen::Isometry3d>{};
+}
+
 Assembly placed_assembly(const ExportModel& model) {
   const Assembly& built = model.assembly;
   Assembly placed = built;

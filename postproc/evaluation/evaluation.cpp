@@ -11,6 +11,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/case/limit_parameter.hpp"
+#include "assembly/export/placed_assembly.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/thickness.hpp"
 #include "postproc/evaluation/meridians.hpp"
@@ -297,6 +298,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   if (is_plane(e.summary)) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
+  out.poses.of_block = poses_of(e.assembly, out.frame);
   const Loads& loads = e.acting;
   if (out.frame.role != FrameRole::self_stress) {
     // The time of an end of a range is its number: all these states bear the same loads.
@@ -357,7 +359,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.parts = connected_parts(e.assembly, e.last.joints);
   find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
-  e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up);
+  e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.up, e.last.poses);
   e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
   count_lost_joints(results, &e);
   const bool has_lines = std::ranges::any_of(

@@ -14,6 +14,7 @@
 #include "postproc/mechanics/mechanism_motion.hpp"
 #include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
+#include "postproc/mechanics/poses.hpp"
 #include "postproc/mechanics/reactions.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 #include "postproc/mechanics/shell_cracks.hpp"
@@ -27,6 +28,7 @@ struct FrameEvaluation {
   Frame frame;
   Vec3 gravity = Vec3::Zero();    ///< m/s2, at the time of the frame
   std::vector<PointForce> loads;  ///< at the time of the frame
+  Poses poses;                    ///< where its forces act on its blocks
   JointWrenches joints;
   std::vector<Wrench> from_below;   ///< per block, wrench from the ring below
   std::vector<BlockFields> fields;  ///< per block

@@ -137,12 +137,12 @@ ThrustInput thrust_input(const Evaluation& e, const FrameEvaluation& frame) {
   for (int i = 0; i < ties.size(); ++i) {
     const Vec3 on_b = tie_force_on_b(ties, i);
     const int a = ties.block_a[i], b = ties.block_b[i];
-    loads.push_back({a, ties.point_a[i], -on_b});
-    loads.push_back({b, ties.point_b[i], on_b});
+    loads.push_back({a, frame.poses.as_built(a, ties.point_a[i]), -on_b});
+    loads.push_back({b, frame.poses.as_built(b, ties.point_b[i]), on_b});
   }
   std::ranges::stable_sort(loads, {}, &PointForce::block);
   return {&e.assembly,      &e.shell,      &frame.frame.contacts, &frame.joints,
-          frame.from_below, frame.gravity,           std::move(loads)};
+          frame.from_below, frame.gravity, frame.poses,           std::move(loads)};
 }
 
 std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {

@@ -1,5 +1,6 @@
 #include "postproc/figures/plot_style.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -31,9 +32,10 @@ std::string describe(const ThrustLine& line) {
                                  ? "it runs through the middle of every bed"
                                  : fmt::format("where half the thickness is {:.3g} times the eccentricity",
                                                line.least_geometric_safety);
-  std::string text =
-      fmt::format("The thrust line {} inside the thickness. Its smallest distance from a face is {}, {}.",
-                  line.inside ? "stays" : "does not stay", length_text(line.least_face_distance), safety);
+  std::string text = fmt::format(
+      "The thrust line {} inside the thickness. Its smallest distance from a face is {}, {}.",
+      line.inside ? "stays" : "does not stay",
+      length_text(line.inside ? std::max(0.0, line.least_face_distance) : line.least_face_distance), safety);
   if (line.undefined > 0)
     text +=
         fmt::format(" It is undefined at {} of {}, where the resultant is negligible or runs along the bed.",

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/export/placed_assembly.hpp"
 #include "postproc/figures/gnuplot.hpp"
 
 namespace cupola {
@@ -41,8 +42,9 @@ struct CutMember {
 
 std::vector<CutMember> cut_members(const Evaluation& e, const ThrustLine& line) {
   std::vector<CutMember> cut(e.assembly.members.size());
-  for (const CutPolygon& polygon : cut_by_plane(e.assembly, plane_of(line))) {
-    const Block& block = e.assembly.blocks[polygon.block];
+  const Assembly placed = placed_assembly({e.assembly, e.last.poses.of_block, {}});
+  for (const CutPolygon& polygon : cut_by_plane(placed, plane_of(line))) {
+    const Block& block = placed.blocks[polygon.block];
     if (block.fixed || (!line.arch && profile_abscissa(line, block.centroid) <= 0.0)) continue;
     Rows& rows = cut[block.member].outlines;
     cut[block.member].is_wythe = e.shell.wythes[polygon.block] == WytheRange{block.member, block.member + 1};

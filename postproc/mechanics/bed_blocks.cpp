@@ -31,12 +31,14 @@ double share_at(const std::vector<BedFacet>& bed, const BlockBed& block, const V
 }
 
 void add_bearing(const JointWrench& joint, const JointWrenches& joints, const ContactTable& contacts,
-                 const std::vector<BedFacet>& bed, const BlockBed& block, Bearing* bearing) {
+                 const std::vector<BedFacet>& bed, const BlockBed& block, const Poses& poses,
+                 Bearing* bearing) {
   for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
     const int row = joints.contacts[i];
     const double normal = contacts.normal_force[row];
     bearing->normal_force += normal;
-    bearing->weighted_share += normal * share_at(bed, block, contacts.point[row]);
+    const Vec3 at = poses.as_built(block.block, contacts.point[row]);
+    bearing->weighted_share += normal * share_at(bed, block, at);
   }
 }
 

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "postproc/mechanics/joint_wrenches.hpp"
+#include "postproc/mechanics/poses.hpp"
 
 namespace cupola {
 
-/// Share of the thickness of the shell at a point in the plane of the bed, from its distances to the inner
-/// and outer edges of the nearest facet.
+/// Share of the thickness of the shell at a point in the plane of the bed, both as built, from its distances
+/// to the inner and outer edges of the nearest facet.
 double share_at(const std::vector<BedFacet>& bed, const BlockBed& block, const Vec3& x);
 
 /// Normal forces on a bed, N, and their sum weighted by the shares of the thickness at which they act.
@@ -21,7 +22,8 @@ struct Bearing {
 /// it lies: the facets of a bonder across a corner lie in several planes, and a wythe may be thinner than the
 /// bend between them is deep.
 void add_bearing(const JointWrench& joint, const JointWrenches& joints, const ContactTable& contacts,
-                 const std::vector<BedFacet>& bed, const BlockBed& block, Bearing* bearing);
+                 const std::vector<BedFacet>& bed, const BlockBed& block, const Poses& poses,
+                 Bearing* bearing);
 
 /// Shares of the thickness of the shell between which a line lies.
 struct Layers {

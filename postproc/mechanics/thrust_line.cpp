@@ -19,6 +19,10 @@ namespace {
 /// coefficient up to 10.
 constexpr double kLeastNormalShare = 0.1;
 
+/// Share of the thickness by which a point on a face may lie beyond it: a hinge turns on the edges of two
+/// blocks, which its joint lets approach and of which a motion shows the contacts where its last step began.
+constexpr double kOnFace = 1e-4;
+
 /// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole
 /// thickness.
 struct Route {
@@ -61,7 +65,7 @@ void balance_loads(const ThrustInput& in, int block, int bed, Wrench* w) {
     const PointForce& load = *on;
     const Vec3& at = load.of_moment ? in.assembly->blocks[block].centroid : load.point;
     if (upwards * (plane.normal.dot(at) - plane.offset) >= -rounding)
-      w->add_force(load.point, -load.force);
+      w->add_force(in.poses.placed(block, load.point), -load.force);
   }
 }
 
@@ -74,7 +78,8 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
        part != parts.end() && part->block == block; ++part) {
     if (part->ring < bed) continue;
     const SolidProperties solid = solid_properties(*in.assembly, *part);
-    w.add_force(solid.centroid, -in.assembly->blocks[block].density * solid.volume * in.gravity);
+    w.add_force(in.poses.placed(block, solid.centroid),
+                -in.assembly->blocks[block].density * solid.volume * in.gravity);
   }
   const ContactTable& c = *in.contacts;
   for (const int j : in.joints->of_block[block]) {
@@ -99,21 +104,25 @@ Wrench wrench_onwards(const ThrustInput& in, int block) {
   return w;
 }
 
-/// The wrench turned about the axis.
-Wrench turned(const Wrench& w, double angle, const Sheet& axis) {
+/// The wrench on a block turned about the axis, which moves with the block.
+Wrench turned(const ThrustInput& in, int block, const Wrench& w, double angle, const Sheet& axis) {
   const Mat3 R = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-  const Vec3 foot(axis.origin.x(), axis.origin.y(), 0.0);
+  const Vec3& centroid = in.assembly->blocks[block].centroid;
+  const Vec3 foot =
+      Vec3(axis.origin.x(), axis.origin.y(), 0.0) + (in.poses.placed(block, centroid) - centroid);
   return {foot + R * (w.point - foot), R * w.force, R * w.moment};
 }
 
-/// Where the edges of a facet meet the meridian plane, or its middle in an arch. None if it does not cross
-/// the meridian.
+/// Where the edges of a facet meet the meridian plane as built, or its middle in an arch, placed with its
+/// block. None if it does not cross the meridian.
 struct FacetEdges {
   Vec3 inner, outer;
 };
-std::optional<FacetEdges> edges_on(const BedFacet& f, const Route& route) {
-  if (!route.meridian)
-    return FacetEdges{0.5 * (f.intrados_a + f.intrados_b), 0.5 * (f.extrados_a + f.extrados_b)};
+std::optional<FacetEdges> edges_on(const BedFacet& f, const Route& route, const Poses& poses) {
+  const auto edges = [&](const Vec3& inner, const Vec3& outer) {
+    return FacetEdges{poses.placed(f.block, inner), poses.placed(f.block, outer)};
+  };
+  if (!route.meridian) return edges(0.5 * (f.intrados_a + f.intrados_b), 0.5 * (f.extrados_a + f.extrados_b));
   const Vec3 outwards = route.axis.towards(*route.meridian), across(-outwards.y(), outwards.x(), 0.0);
   const Vec3 foot(route.axis.origin.x(), route.axis.origin.y(), 0.0);
   const double a = across.dot(f.intrados_a - foot), b = across.dot(f.intrados_b - foot);
@@ -122,16 +131,16 @@ std::optional<FacetEdges> edges_on(const BedFacet& f, const Route& route) {
     const double s = across.dot(p - foot), t = across.dot(q - foot);
     return s == t ? p : Vec3(p + s / (s - t) * (q - p));
   };
-  return FacetEdges{meet(f.intrados_a, f.intrados_b), meet(f.extrados_a, f.extrados_b)};
+  return edges(meet(f.intrados_a, f.intrados_b), meet(f.extrados_a, f.extrados_b));
 }
 
 /// The place of a layer on the meridian, in an arch the mean over its width. If no facet ends at the layer
 /// there, it lies on the line through the edges of another one. None if the bed does not cross the meridian.
-std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, const Route& route) {
+std::optional<Vec3> place_of(const ThrustInput& in, int bed, double layer, const Route& route) {
   std::optional<Vec3> elsewhere;
   std::vector<Vec3> places;
-  for (const BedFacet& f : bed) {
-    const std::optional<FacetEdges> edges = edges_on(f, route);
+  for (const BedFacet& f : in.shell->beds[bed]) {
+    const std::optional<FacetEdges> edges = edges_on(f, route, in.poses);
     if (!edges) continue;
     if (f.from == layer || f.to == layer) {
       places.push_back(f.from == layer ? edges->inner : edges->outer);
@@ -148,9 +157,9 @@ std::optional<Vec3> place_of(const std::vector<BedFacet>& bed, double layer, con
 
 /// Finds the skins of the bed at two layers in the meridian plane. False if the bed does not cross the
 /// meridian.
-bool find_skins(const std::vector<BedFacet>& bed, const Layers& layers, const Route& route,
+bool find_skins(const ThrustInput& in, int bed, const Layers& layers, const Route& route,
                 ThrustPoint* point) {
-  const auto inner = place_of(bed, layers.inner, route), outer = place_of(bed, layers.outer, route);
+  const auto inner = place_of(in, bed, layers.inner, route), outer = place_of(in, bed, layers.outer, route);
   if (!inner || !outer) return false;
   point->intrados = *inner;
   point->extrados = *outer;
@@ -185,7 +194,8 @@ struct Push {
 };
 
 /// From the block's wrench: where its line of action meets the mean plane of the bed.
-Push push_of(const ThrustInput& in, const Wrench& w, int bed, const BlockBed& block) {
+Push push_of(const ThrustInput& in, const Wrench& placed, int bed, const BlockBed& block) {
+  const Wrench w = in.poses.as_built(block.block, placed);
   const Vec3 x = axis_in_plane(central_axis(w), w.force, block.plane);
   const Vec3& normal = block.plane.normal;
   return {std::copysign(1.0, normal.dot(in.shell->direction(bed))) * normal.dot(w.force),
@@ -197,7 +207,7 @@ Push push_at_points(const ThrustInput& in, const Route& route, int bed, const Bl
   Bearing bearing;
   for (const JointWrench* joint : joints_on(in, block.block, bed))
     if (!route.wythe || wythes_of(*in.assembly, *in.shell, *joint).contains(*route.wythe))
-      add_bearing(*joint, *in.joints, *in.contacts, in.shell->beds[bed], block, &bearing);
+      add_bearing(*joint, *in.joints, *in.contacts, in.shell->beds[bed], block, in.poses, &bearing);
   return {bearing.normal_force, bearing.share()};
 }
 
@@ -221,7 +231,7 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
     const Wrench w = wythe ? wrench_in_wythe(in, route, id, bed) : wrench_at_bed(in, id, bed);
     if (w.force.norm() == 0.0) continue;
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
-    sum.add(share * turned(w, turn, route.axis));
+    sum.add(share * turned(in, id, w, turn, route.axis));
     const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
     // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
     // block's wrench.
@@ -259,7 +269,8 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
       for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
         const int row = in.joints->contacts[i];
         if (c.normal_force[row] <= least) continue;
-        const double share = share_at(in.shell->beds[bed], block, c.point[row]);
+        const Vec3 at = in.poses.as_built(block.block, c.point[row]);
+        const double share = share_at(in.shell->beds[bed], block, at);
         const double position = std::clamp(layers.position(share), 0.0, 1.0);  // rounding
         point->compressed_from = std::fmin(point->compressed_from, position);  // skips NaN
         point->compressed_to = std::fmax(point->compressed_to, position);
@@ -343,7 +354,7 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     ThrustPoint point;
     point.bed = bed;
     const std::optional<Layers> layers = layers_of(*input.shell, bed, wythes);
-    if (!layers || !find_skins(input.shell->beds[bed], *layers, route, &point)) continue;
+    if (!layers || !find_skins(input, bed, *layers, route, &point)) continue;
     if (!sum_strip(input, bed, *layers, route, &point)) continue;
     find_compressed_zone(input, bed, *layers, route, &point);
     line.points.push_back(point);
@@ -355,7 +366,7 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
   line.least_face_distance = line.least_geometric_safety = std::numeric_limits<double>::infinity();
   for (const ThrustPoint& point : line.points) {
     if (!point.is_placed()) continue;
-    line.inside = line.inside && point.face_distance >= 0.0;
+    line.inside = line.inside && std::abs(point.position - 0.5) <= 0.5 + kOnFace;
     line.least_face_distance = std::min(line.least_face_distance, point.face_distance);
     line.least_geometric_safety = std::min(line.least_geometric_safety, point.geometric_safety);
   }

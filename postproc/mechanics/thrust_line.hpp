@@ -8,6 +8,7 @@
 
 #include "assembly/model/applied_loads.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
+#include "postproc/mechanics/poses.hpp"
 #include "postproc/mechanics/shell.hpp"
 
 namespace cupola {
@@ -40,7 +41,8 @@ struct ThrustPoint {
 
 /// Thrust line of a meridian (paper, section 3.2).
 ///
-/// The strip is one standard block wide and centred on the meridian. On every bed:
+/// The strip consists of the same blocks wherever they stand: as built it is one standard block wide and
+/// centred on the meridian. On every bed:
 ///
 /// - Each block in the strip counts with the share of its width that lies inside, and its wrench is turned
 ///   about the axis into the meridian plane. Where a herringbone crosses, several narrow blocks share the
@@ -66,7 +68,7 @@ struct ThrustLine {
   std::vector<ThrustPoint> points;  ///< from the springing upwards
   std::vector<Vec3> envelope;       ///< m, intersections of successive lines of action
   int undefined = 0;                ///< number of points of undefined position
-  bool inside = false;               ///< every point of defined position lies between the skins
+  bool inside = false;  ///< every point of defined position lies between the skins or on one of them
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;
   double largest_couple_length() const;  ///< m, of its points
@@ -83,6 +85,7 @@ struct ThrustInput {
   const JointWrenches* joints = nullptr;
   std::vector<Wrench> from_below;
   Vec3 gravity = Vec3::Zero();
+  Poses poses = {};
   std::vector<PointForce> loads = {};  ///< those of ties included, in the order of their blocks
 };
 

@@ -65,7 +65,7 @@ WytheSum finished(const Collected& at, const Shell& shell, double total, const F
 }  // namespace
 
 std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, const JointWrenches& joints,
-                                 const ContactTable& contacts, const Vec3& up) {
+                                 const ContactTable& contacts, const Vec3& up, const Poses& poses) {
   std::vector<WytheSum> out;
   if (assembly.members.empty() || shell.num_rings() == 0) return out;
   Sums sums;
@@ -79,7 +79,7 @@ std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, c
     const std::vector<BlockBed>& blocks = shell.blocks[ring];
     const auto block = std::ranges::lower_bound(blocks, joint.upper, {}, &BlockBed::block);
     if (!joint.negligible && block != blocks.end() && block->block == joint.upper)
-      add_bearing(joint, joints, contacts, shell.beds[ring], *block, &at.bearing);
+      add_bearing(joint, joints, contacts, shell.beds[ring], *block, poses, &at.bearing);
   }
   std::map<int, double> totals;  // N, by ring
   for (auto& [key, at] : sums) {

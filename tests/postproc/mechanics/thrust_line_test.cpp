@@ -80,6 +80,17 @@ TEST(ThrustLine, LineOutsideTheThicknessIsReported) {
   EXPECT_NEAR(line.least_face_distance, -0.1, 1e-9);
 }
 
+// A hinge lies on the face, but for the closing of its joint and the last step of a motion.
+TEST(ThrustLine, LineOnAFaceIsInside) {
+  const auto line_at = [](double position) {
+    const MeridianScene scene(4, 12, 0.0, position, -100.0, 1000.0);
+    return thrust_line(scene.input(), "m", 0.0);
+  };
+  EXPECT_TRUE(line_at(1.0 + 1e-5).inside);
+  EXPECT_TRUE(line_at(-1e-5).inside);
+  EXPECT_FALSE(line_at(1.001).inside);
+}
+
 TEST(ThrustLine, ResultantAlongTheBedHasNoPosition) {
   MeridianScene scene(4, 12, 0.0, 0.5, -100.0, 1000.0);
   for (Wrench& w : scene.from_below)  // ring 2: along the bed, with a small normal component
@@ -205,6 +216,59 @@ TEST(ThrustLine, OfAnArchIsAtTheContactPoints) {
   const ThrustLine line = thrust_line(thrust_input(e, e.last), "arch", std::nullopt);
   ASSERT_EQ(line.points.size(), 3u);
   for (const ThrustPoint& p : line.points) EXPECT_NEAR(p.position, 0.5, 1e-12) << p.bed;
+}
+
+// In the moved geometry of a path, forces act where the blocks stand: the line is that of the column as built,
+// moved with it. Displacements of an equilibrium in the geometry as built move nothing.
+TEST(ThrustLine, MovesWithTheBlocksOfAPath) {
+  const Evaluation e = test::column_evaluation(0.6, 0.3);
+  const Eigen::Isometry3d move = Eigen::Translation3d(0.3, -0.7, 0.2) * Eigen::AngleAxisd(0.4, Vec3::UnitX());
+  const Eigen::Quaterniond turn(move.linear());
+  Frame frame = e.last.frame;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    frame.blocks.position[b] = move * e.assembly.blocks[b].centroid;
+    frame.blocks.quaternion_wxyz[b] = {turn.w(), turn.x(), turn.y(), turn.z()};
+  }
+  frame.role = FrameRole::equilibrium;
+  const auto line_of = [&e](const Frame& of) {
+    const FrameEvaluation evaluated = evaluate_frame(e, of);
+    return thrust_line(thrust_input(e, evaluated), "arch", std::nullopt);
+  };
+  const ThrustLine built = line_of(frame);
+  frame.role = FrameRole::path;
+  for (Vec3& point : frame.contacts.point) point = move * point;
+  for (Vec3& force : frame.contacts.force) force = move.linear() * force;
+  for (Vec3& normal : frame.contacts.normal) normal = move.linear() * normal;
+  const ThrustLine moved = line_of(frame);
+  ASSERT_EQ(built.points.size(), 3u);
+  ASSERT_EQ(moved.points.size(), 3u);
+  for (int k = 0; k < 3; ++k) {
+    const ThrustPoint &a = built.points[k], &b = moved.points[k];
+    EXPECT_NEAR(a.position, 0.375, 1e-12);
+    EXPECT_NEAR(b.position, 0.375, 1e-12);
+    EXPECT_NEAR(b.face_distance, 0.3, 1e-12);
+    EXPECT_NEAR(b.compressed_from, a.compressed_from, 1e-12);
+    for (const auto& [from, to] : {std::pair(a.point, b.point), {a.intrados, b.intrados}})
+      EXPECT_NEAR((move * from - to).norm(), 0.0, 1e-12);
+  }
+}
+
+// A strip of several blocks keeps its resultant where the ground has moved and the axis with it.
+TEST(ThrustLine, MovesWithAVaultOnMovedGround) {
+  MeridianScene scene(4, 12, 0.1, 0.3, -300.0, 1000.0);
+  const ThrustLine built = thrust_line(scene.input(), "m", 20.0);
+  const Eigen::Isometry3d move = Eigen::Isometry3d(Eigen::Translation3d(2.0, 3.0, 0.5));
+  for (Wrench& w : scene.from_below) w.point = move * w.point;
+  ThrustInput input = scene.input();
+  input.poses.of_block.assign(scene.assembly.blocks.size(), move);
+  const ThrustLine moved = thrust_line(input, "m", 20.0);
+  ASSERT_EQ(moved.points.size(), 4u);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_NEAR(moved.points[k].position, 0.3, 1e-12);
+    EXPECT_NEAR((move * built.points[k].point - moved.points[k].point).norm(), 0.0, 1e-12);
+    EXPECT_NEAR(moved.points[k].r, built.points[k].r, 1e-9);
+    EXPECT_NEAR(moved.points[k].couple_length, 0.0, 1e-9);
+  }
 }
 
 TEST(ThrustLine, TheCompressedZoneIsWherePointsPush) {
