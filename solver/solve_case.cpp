@@ -184,16 +184,19 @@ AnalysisSinks make_sinks(const SolveRequest& request, const std::string& checkpo
   if (live && has_progress)
     sinks.progress = [progress](double share, const std::string& state) { progress->show(share, state); };
   sinks.history = [run](const std::string& row) { run->history += row + "\n"; };
-  sinks.frame = [writer, run, &lock](const Frame& frame) {
+  sinks.frame = [writer, run, &lock, history = Growth()](const Frame& frame) mutable {
     lock.check();
     writer->write_frame(frame);
     run->frame_times.push_back(frame.time);
-    if (!run->history.empty()) writer->write_text("history.csv", run->history);
+    if (run->history.empty() || !history.is_due(run->history.size())) return;
+    writer->write_text("history.csv", run->history);
+    history.written(run->history.size());
   };
   sinks.table = [writer](const std::string& name, const std::string& text) {
-    writer->write_text(name, text);
+    writer->write_growing(name, text);
   };
-  sinks.checkpoint = [run, checkpoint_path](const std::string& bytes) {
+  sinks.checkpoint = [run, writer, checkpoint_path](const std::string& bytes) {
+    writer->finish_tables();  // a run that is resumed at its end writes no table again
     run->analysis = bytes;
     write_checkpoint(checkpoint_path, *run);
   };
@@ -273,6 +276,7 @@ ExitCode solve_case(SolveRequest request) {
   progress.finish();
   if (!summary) {
     const bool resumable = std::filesystem::exists(checkpoint_path);
+    if (!run.history.empty()) writer.write_text("history.csv", run.history);
     writer.write_interruption({run.program_version, run.case_hash, run.assembly_hash, resumable,
                                static_cast<int>(run.frame_times.size()), last_line,
                                wall_seconds() - started});

@@ -175,6 +175,11 @@ std::string missing_file(const std::string& folder, int index) {
   return "";
 }
 
+void check_frame_is_there(const std::string& folder, int index) {
+  if (const std::string missing = missing_file(folder, index); !missing.empty())
+    throw SystemError(missing + ": was removed during the run, which therefore stops");
+}
+
 }  // namespace
 
 ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times,
@@ -184,11 +189,13 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
       case_hash_(std::move(case_hash)),
       times_(std::move(times)) {
   make_folder(folder_);
-  for (int i = 0; i < static_cast<int>(times_.size()); ++i)
+  for (int i = 0; i < static_cast<int>(times_.size()); ++i) {
     if (const std::string missing = missing_file(folder_, i); !missing.empty())
       throw InputError(
           FileLocation{missing},
           "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
+    if (std::filesystem::exists(in_folder(folder_, frame_file("ties", i)))) with_ties_.push_back(i);
+  }
   std::filesystem::remove(in_folder(folder_, kInterrupted));
   if (times_.empty()) return;
   // A run that is resumed at its end writes no table again. Hidden files are parts that a killed run left.
@@ -203,29 +210,36 @@ void ResultsWriter::write_frame(const Frame& frame) {
   if (index == 0) {
     std::filesystem::remove(in_folder(folder_, "summary.json"));
     std::filesystem::remove(in_folder(folder_, "ties.pvd"));
+  } else {
+    check_frame_is_there(folder_, index - 1);
   }
-  for (int i = 0; i < index; ++i)
-    if (const std::string missing = missing_file(folder_, i); !missing.empty())
-      throw SystemError(missing + ": was removed during the run, which therefore stops");
-  times_.push_back(frame.time);
   const RunOfFrame run{assembly_hash_, case_hash_};
   write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, run));
   write_mesh(in_folder(folder_, frame_file("blocks", index)), blocks_mesh(frame, run));
-  const auto write_collection = [&](const char* what) {
-    std::vector<PvdEntry> entries;
-    for (int i = 0; i <= index; ++i)
-      if (std::filesystem::exists(in_folder(folder_, frame_file(what, i))))
-        entries.push_back({times_[i], frame_file(what, i)});
-    write_pvd(in_folder(folder_, fmt::format("{}.pvd", what)), entries);
-  };
-  write_collection("contacts");
-  write_collection("blocks");
   // A stage of construction may come before the first tie; an earlier run may have left its file.
   const std::string ties = in_folder(folder_, frame_file("ties", index));
   std::filesystem::remove(ties);
-  if (frame.ties.size() == 0) return;
-  write_mesh(ties, ties_mesh(frame, run));
-  write_collection("ties");
+  if (frame.ties.size() > 0) {
+    write_mesh(ties, ties_mesh(frame, run));
+    with_ties_.push_back(index);
+  }
+  times_.push_back(frame.time);
+  if (collections_.is_due(times_.size())) write_collections();
+}
+
+void ResultsWriter::write_collections() {
+  if (collections_.is_current(times_.size())) return;
+  const auto write = [this](const char* what, const std::vector<int>& frames) {
+    std::vector<PvdEntry> entries;
+    for (const int i : frames) entries.push_back({times_[i], frame_file(what, i)});
+    if (!entries.empty()) write_pvd(in_folder(folder_, fmt::format("{}.pvd", what)), entries);
+  };
+  std::vector<int> all(times_.size());
+  std::iota(all.begin(), all.end(), 0);
+  write("contacts", all);
+  write("blocks", all);
+  write("ties", with_ties_);
+  collections_.written(times_.size());
 }
 
 void ResultsWriter::write_text(const std::string& name, const std::string& text) {
@@ -233,11 +247,31 @@ void ResultsWriter::write_text(const std::string& name, const std::string& text)
   text_files_[name] = hash_text(text);
 }
 
+void ResultsWriter::write_growing(const std::string& name, const std::string& text) {
+  if (growing_[name].is_due(text.size())) {
+    write_text(name, text);
+    growing_[name].written(text.size());
+    pending_.erase(name);
+  } else {
+    pending_[name] = text;
+  }
+}
+
+void ResultsWriter::finish_tables() {
+  for (const auto& [name, text] : pending_) write_text(name, text);
+  pending_.clear();
+}
+
 void ResultsWriter::write_interruption(const Interruption& interruption) {
+  finish_tables();
+  write_collections();
   write_text_atomically(in_folder(folder_, kInterrupted), to_json(interruption));
 }
 
 void ResultsWriter::write_summary(Summary summary) {
+  for (int i = 0; i < static_cast<int>(times_.size()); ++i) check_frame_is_there(folder_, i);
+  finish_tables();
+  write_collections();
   summary.text_files = text_files_;
   write_text_atomically(in_folder(folder_, "summary.json"), to_json(summary));
 }

@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/growth.hpp"
 #include "assembly/model/results.hpp"
 
 namespace cupola {
 
 /// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp, with ties
-/// ties_NNNN.vtp, and their .pvd collections, which are rewritten after each frame.
+/// ties_NNNN.vtp, and their .pvd collections. These, and tables that grow with the frames, are written again
+/// when they have grown by a hundredth and when the run ends or is interrupted, so that the cost of a run is
+/// proportional to its frames; what a killed run leaves lacks at most its last hundredth.
 class ResultsWriter {
  public:
   /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows
@@ -17,10 +20,14 @@ class ResultsWriter {
   /// InputError if a frame is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
-  /// SystemError if an earlier frame was removed.
+  /// SystemError if the frame before was removed.
   void write_frame(const Frame& frame);
-  void write_text(const std::string& name, const std::string& text);  ///< run.yaml, history.csv
+  void write_text(const std::string& name, const std::string& text);     ///< run.yaml, ranges.csv
+  void write_growing(const std::string& name, const std::string& text);  ///< path.csv
+  /// Writes the growing tables to their ends.
+  void finish_tables();
   /// To be called last: a summary marks the folder as complete. It lists every text file with its hash.
+  /// SystemError if a frame was removed.
   void write_summary(Summary summary);
   /// Instead of a summary. The next run that starts in this folder removes it.
   void write_interruption(const Interruption& interruption);
@@ -31,7 +38,13 @@ class ResultsWriter {
   std::string folder_;
   std::string assembly_hash_, case_hash_;
   std::vector<double> times_;
-  std::map<std::string, std::string> text_files_;  ///< name to hash
+  std::vector<int> with_ties_;  // frames
+  Growth collections_;
+  std::map<std::string, std::string> text_files_;  // name to hash
+  std::map<std::string, Growth> growing_;          // by name
+  std::map<std::string, std::string> pending_;     // name to text, of growing tables not written yet
+
+  void write_collections();
 };
 
 /// Reads a results folder frame by frame. Throws InputError that names the file if it is missing, truncated

@@ -9,6 +9,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/files/mesh_file.hpp"
 #include "assembly/files/old_frames.hpp"
 #include "tests/assembly/files/example_summary.hpp"
 #include "tests/assembly/scene.hpp"
@@ -315,6 +316,46 @@ TEST(ResultsFile, RemovedFramesStopARun) {
   std::filesystem::remove(folder + "/blocks_0000.vtp");
   EXPECT_THROW(writer.write_frame(two_block_frame(0.5)), SystemError);
   EXPECT_THROW(ResultsWriter(folder, "hash", {0.0}, "run"), InputError) << "and it cannot be resumed";
+}
+
+// Collections and growing tables are written again when they have grown by a hundredth: the cost of a run is
+// proportional to its frames. A killed run lacks at most the last hundredth, an interrupted one nothing.
+TEST(ResultsFile, WhatGrowsIsWrittenInProportion) {
+  const std::string folder = test::fresh_folder("growing"), hash = example_summary().assembly_hash;
+  ResultsWriter(folder, hash).write_frame(two_block_frame(1.0));
+  std::vector<double> times{1.0};
+  std::string rows = "row\n";
+  while (times.size() < 200) {
+    for (const char* what : {"contacts", "blocks", "ties"})
+      std::filesystem::copy_file(fmt::format("{}/{}_0000.vtp", folder, what),
+                                 fmt::format("{}/{}_{:04}.vtp", folder, what, times.size()));
+    times.push_back(static_cast<double>(times.size()) + 1.0);
+    rows += "row\n";
+  }
+  const auto add_frame = [&](ResultsWriter* writer) {
+    times.push_back(static_cast<double>(times.size()) + 1.0);
+    writer->write_frame(two_block_frame(times.back()));
+    writer->write_growing("path.csv", rows += "row\n");
+  };
+  const auto expect_listed = [&folder](size_t frames) {
+    for (const char* what : {"contacts", "blocks", "ties"})
+      EXPECT_EQ(read_pvd(fmt::format("{}/{}.pvd", folder, what)).size(), frames) << what;
+    EXPECT_EQ(read_text(folder + "/path.csv").size(), 4 * frames);
+  };
+  {
+    ResultsWriter writer(folder, hash, times);
+    for (const size_t listed : {201, 201, 201, 204, 204}) {
+      add_frame(&writer);
+      expect_listed(listed);
+    }
+    writer.write_interruption({});
+    expect_listed(205);
+    add_frame(&writer);
+    writer.finish_tables();  // before a checkpoint
+    EXPECT_EQ(read_pvd(folder + "/contacts.pvd").size(), 205u);
+  }
+  ResultsWriter(folder, hash, times).write_summary(example_summary());  // that run was killed
+  expect_listed(206);
 }
 
 TEST(ResultsFile, ARunWithoutFramesSaysWhy) {
