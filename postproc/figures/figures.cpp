@@ -67,14 +67,6 @@ Figure hoop_figure(const MeridianEvaluation& m) {
   for (const HoopRow& row : m.hoop)
     if (row.tie_force != 0.0) ties.push_back({row.height, unit.per_newton * row.tie_force});
   Figure f;
-  const size_t last = rows.empty() ? 0 : rows.size() - 1;
-  const auto extreme = [&rows](size_t column, bool least) {
-    size_t best = 0;
-    for (size_t i = 0; i < rows.size(); ++i)
-      if (least ? rows[i][column + 1] < rows[best][column + 1] : rows[i][column + 1] > rows[best][column + 1])
-        best = i;
-    return best;
-  };
   f.name = "hoop_" + m.thrust.name;
   f.title = fmt::format("Hoop forces across the meridian {} ({:g} deg)", m.thrust.name, m.thrust.azimuth_deg);
   f.caption =
@@ -87,16 +79,14 @@ Figure hoop_figure(const MeridianEvaluation& m) {
       plot_style() + data_block("hoop", rows) + (ties.empty() ? "" : data_block("ties", ties)) +
       fmt::format(
           "set ylabel 'height (m)'\nset xlabel 'hoop force of a ring ({2}); tension < 0 < compression'\n"
-          "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\nunset key\nset rmargin 14\n"
-          "plot $hoop using 2:1 w lp lc rgb '{0}' pt 5 ps 0.5, $hoop using 3:1 w lp lc rgb '{1}' pt 9 ps "
-          "0.6, $hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5{3}{4}{5}{6}\n",
+          "set arrow from 0, graph 0 to 0, graph 1 nohead lc rgb '#444444'\nset key outside right center\n"
+          "plot $hoop using 2:1 w lp lc rgb '{0}' pt 5 ps 0.5 title 'head joints', "
+          "$hoop using 3:1 w lp lc rgb '{1}' pt 9 ps 0.6 title 'bed joints', "
+          "$hoop using 4:1 w lp lc rgb 'black' lw 2 pt 7 ps 0.5 title 'sum'{3}\n",
           kBlue, kOrange, unit.name,
-          curve_label("hoop", last, "$2", "$1", "head joints", kBlue, "left offset 0,1"),
-          curve_label("hoop", extreme(1, true), "$3", "$1", "bed joints", kOrange, "right offset -0.9,0"),
-          curve_label("hoop", extreme(2, false), "$4", "$1", "sum", "black"),
-          ties.empty() ? ""
-                       : fmt::format(", $ties using 2:1 w p lc rgb '{}' pt 13 ps 1.2", kPurple) +
-                             curve_label("ties", 0, "$2", "$1", "chains", kPurple, "right offset -0.9,0"));
+          ties.empty()
+              ? ""
+              : fmt::format(", $ties using 2:1 w p lc rgb '{}' pt 13 ps 1.2 title 'chains'", kPurple));
   return f;
 }
 
