@@ -187,7 +187,8 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
                     figure.width > kHalfPage ? " class=\"wide\"" : "",
                     html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
                     markup_text(figure.title), markup_text(figure.caption));
-  body += "</div>\n<h2>Over the shell</h2>\n" + maps_html(maps, figure_folder);
+  body += "</div>\n";
+  if (!maps.empty()) body += "<h2>Over the shell</h2>\n" + maps_html(maps, figure_folder);
   return html_page("Comparison", body);
 }
 

@@ -1,7 +1,8 @@
 #include "postproc/compare/side_by_side.hpp"
 
+#include <algorithm>
 #include <filesystem>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,21 +15,30 @@ namespace fs = std::filesystem;
 
 std::vector<Figure> common_maps(const std::vector<std::string>& folders,
                                 const std::vector<std::string>& labels) {
-  std::vector<std::optional<ShellMap>> maps;
+  struct OfRun {
+    ShellMap map;
+    size_t run = 0;
+  };
+  std::vector<std::vector<OfRun>> maps;  // of each wythe
   MapScales scales;
-  for (const std::string& folder : folders) {
-    maps.push_back(read_shell_map(folder));
-    if (maps.back()) scales.include(*maps.back());
-  }
+  for (size_t run = 0; run < folders.size(); ++run)
+    for (ShellMap& map : read_shell_maps(folders[run])) {
+      scales.include(map);
+      auto same = std::ranges::find_if(maps, [&map](const std::vector<OfRun>& of_wythe) {
+        return of_wythe.front().map.wythe == map.wythe;
+      });
+      if (same == maps.end()) same = maps.emplace(maps.end());
+      same->push_back({std::move(map), run});
+    }
   std::vector<Figure> figures;
   for (Figure (*draw)(const ShellMap&, const MapScales&) : {force_map, utilisation_map})
-    for (size_t i = 0; i < maps.size(); ++i) {
-      if (!maps[i]) continue;
-      Figure figure = draw(*maps[i], scales);
-      if (figure.commands.empty()) continue;
-      figures.push_back(std::move(figure));
-      figures.back().name += " " + labels[i];
-    }
+    for (const std::vector<OfRun>& of_wythe : maps)
+      for (const auto& [map, run] : of_wythe) {
+        Figure figure = draw(map, scales);
+        if (figure.commands.empty()) continue;
+        figures.push_back(std::move(figure));
+        figures.back().name += " " + labels[run];
+      }
   return figures;
 }
 

@@ -7,7 +7,8 @@
 
 namespace cupola {
 
-/// The maps of the runs, on common colour scales and with the label of the run after their names.
+/// The maps of the runs, wythe by wythe, on common colour scales and with the label of the run after their
+/// names.
 std::vector<Figure> common_maps(const std::vector<std::string>& post_folders,
                                 const std::vector<std::string>& labels);
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -67,6 +68,20 @@ void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
                           extent.part * fields.meridional_force, extent.part * fields.hoop_force,
                           fields.friction_use, fields.kern});
   }
+}
+
+void read_boxes(const std::string& path, ShellMap* map) {
+  const CsvFile csv = read_csv(path);
+  for (size_t i = 0; i < csv.rows.size(); ++i) {
+    const auto number = [&](const char* key) { return csv.number(i, csv.column(key)); };
+    map->boxes.push_back({static_cast<int>(number("block")), static_cast<int>(number("ring")), number("from"),
+                          number("to"), number("meridional_force_N_per_m"), number("hoop_force_N_per_m"),
+                          number("friction_use"), number("kern_use")});
+  }
+  if (map->boxes.empty()) return;
+  const auto [first, last] = std::ranges::minmax(map->boxes, {}, &ShellBox::ring);
+  map->first_ring = first.ring;
+  map->num_rings = last.ring + 1;
 }
 
 }  // namespace
@@ -157,23 +172,26 @@ Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes) {
                     shell_columns(), boxes);
 }
 
-std::optional<ShellMap> read_shell_map(const std::string& post_folder) {
-  ShellMap vault{true, 0, {}}, wall{false, 0, {}}, arch{false, 0, {}};
-  arch.arch = true;
-  for (ShellMap& map : {std::ref(vault), std::ref(wall), std::ref(arch)}) {
-    const std::string path = (std::filesystem::path(post_folder) / map.table_name()).string() + ".csv";
-    if (!std::filesystem::exists(path)) continue;
-    const CsvFile csv = read_csv(path);
-    for (size_t i = 0; i < csv.rows.size(); ++i) {
-      const auto number = [&](const char* key) { return csv.number(i, csv.column(key)); };
-      map.boxes.push_back({static_cast<int>(number("block")), static_cast<int>(number("ring")),
-                           number("from"), number("to"), number("meridional_force_N_per_m"),
-                           number("hoop_force_N_per_m"), number("friction_use"), number("kern_use")});
-      map.num_rings = std::max(map.num_rings, map.boxes.back().ring + 1);
+std::vector<ShellMap> read_shell_maps(const std::string& post_folder) {
+  namespace fs = std::filesystem;
+  std::vector<ShellMap> maps;
+  if (!fs::is_directory(post_folder)) return maps;
+  std::set<std::string> names;
+  for (const auto& file : fs::directory_iterator(post_folder))
+    if (file.path().extension() == ".csv") names.insert(file.path().stem().string());
+  ShellMap vault, wall, arch;
+  vault.vault = arch.arch = true;
+  for (const std::string& name : names)
+    for (const ShellMap& kind : {wall, arch, vault}) {
+      const std::string table = kind.table_name();
+      if (name != table && !name.starts_with(table + "_")) continue;
+      maps.push_back(kind);
+      if (name != table) maps.back().wythe = name.substr(table.size() + 1);
+      read_boxes((fs::path(post_folder) / (name + ".csv")).string(), &maps.back());
+      break;
     }
-    return map;
-  }
-  return std::nullopt;
+  std::ranges::stable_sort(maps, {}, &ShellMap::first_ring);
+  return maps;
 }
 
 }  // namespace cupola

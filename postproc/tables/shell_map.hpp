@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,7 +51,8 @@ std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 /// behind.
 Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes);
 
-/// The map in the folder of a run; none if it has no rings, no equilibrium, or wythes.
-std::optional<ShellMap> read_shell_map(const std::string& post_folder);
+/// The maps in the folder of a run, from the lowest sheet upwards; none if it has no rings or no equilibrium.
+/// The name of a wythe is as in the file's.
+std::vector<ShellMap> read_shell_maps(const std::string& post_folder);
 
 }  // namespace cupola

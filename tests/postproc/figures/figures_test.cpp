@@ -12,6 +12,7 @@
 
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/model/outward.hpp"
+#include "postproc/compare/side_by_side.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
@@ -197,12 +198,32 @@ TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   ASSERT_EQ(map.boxes.size(), 3u);
   const std::string folder = test::fresh_folder("post");
   write_text_atomically(folder + "/shell_x.csv", to_csv(shell_table(map, map.boxes)));
-  const auto read = read_shell_map(folder);
-  ASSERT_TRUE(read);
-  EXPECT_FALSE(read->vault);
-  EXPECT_EQ(read->num_rings, 3);
-  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(read->boxes[i].meridional_force, map.boxes[i].meridional_force);
-  EXPECT_FALSE(read_shell_map("/nowhere/at/all"));
+  const auto read = read_shell_maps(folder);
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_FALSE(read[0].vault);
+  EXPECT_EQ(read[0].num_rings, 3);
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(read[0].boxes[i].meridional_force, map.boxes[i].meridional_force);
+  EXPECT_TRUE(read_shell_maps("/nowhere/at/all").empty());
+}
+
+TEST(ShellMaps, OfTheMembersOfRunsStandSideBySide) {
+  ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
+  const std::string folders[] = {test::fresh_folder("one"), test::fresh_folder("two")};
+  for (const std::string& folder : folders)
+    for (const char* member : {"upper wall", "base"}) {
+      map.wythe = member;
+      map.vault = member == std::string("base");
+      for (ShellBox& box : map.boxes) box.ring = box.ring % 3 + (map.vault ? 0 : 3);
+      const Table table = shell_table(map, map.boxes);
+      write_text_atomically(folder + "/" + table.name + ".csv", to_csv(table));
+    }
+  const std::vector<Figure> maps = common_maps({folders[0], folders[1]}, {"A", "B"});
+  ASSERT_GE(maps.size(), 4u);
+  const char* names[] = {"map_forces_base A", "map_forces_base B", "map_forces_upper_wall A",
+                         "map_forces_upper_wall B"};
+  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(maps[i].name, names[i]);
+  EXPECT_NE(maps[0].title.find("over the wythe base"), std::string::npos) << maps[0].title;
+  EXPECT_EQ(read_shell_maps(folders[0])[1].first_ring, 3);
 }
 
 TEST(Panels, FillTheirFrameRowByRowFromTheTop) {
