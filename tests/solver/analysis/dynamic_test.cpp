@@ -430,8 +430,8 @@ TEST(BaseMotion, CountsMotionFromTheGround) {
   for (const Vec3& displacement : result.last.blocks.displacement) EXPECT_LT(displacement.norm(), 1e-6);
 }
 
-// A cube of 1000 kg falls by 0.1 m on four points of 1e-8 m/N. A corner alone meets 250 kg: its time of impact is
-// sqrt(m c) = 1.6 ms.
+// A cube of 1000 kg falls by 0.1 m on four points of 1e-8 m/N. A corner alone meets 250 kg: its time of impact
+// is sqrt(m c) = 1.6 ms.
 TEST(Impact, IsElasticOnlyIfStepsResolveItUndamped) {
   const Assembly assembly = testing::make_boxes(
       {{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}, {.center = {0, 0, 0.6}}});
