@@ -11,7 +11,8 @@ namespace cupola {
 ///     energy at the end - energy at the start = loads + supports + dilatancy - dissipated() + error
 ///
 /// All but `scheme` have formulas of their own. What the forces do on the mean velocities beyond these is
-/// `scheme`, which tends to zero with h if the others are right. The error that remains is that of the contact
+/// `scheme`, which tends to zero with h if the others are right; but contacts that slide on under the
+/// associated law do not part, and lose in it what dilatancy gives. The error that remains is that of the contact
 /// solve and of rounding.
 struct StepWork {
   double loads = 0.0;     ///< increase of the potential energy by loads that change in time
