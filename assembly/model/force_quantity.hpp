@@ -69,8 +69,8 @@ struct BaseRatio {
   BaseBlocks of, over;
 };
 
-/// Force of a tie, >= 0, or of a rod, tension positive: `tie` is a number in the tables of ties, in which a rod
-/// is a tie and a strut and has two.
+/// Force of a tie, >= 0, or of a rod, tension positive: `tie` is a number in the tables of ties, in which a
+/// rod is a tie and a strut and has two.
 struct TieForce {
   int tie = 0;
 };

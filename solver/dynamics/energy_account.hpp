@@ -12,8 +12,8 @@ namespace cupola {
 ///
 /// All but `scheme` have formulas of their own. What the forces do on the mean velocities beyond these is
 /// `scheme`, which tends to zero with h if the others are right; but contacts that slide on under the
-/// associated law do not part, and lose in it what dilatancy gives. The error that remains is that of the contact
-/// solve and of rounding.
+/// associated law do not part, and lose in it what dilatancy gives. The error that remains is that of the
+/// contact solve and of rounding.
 struct StepWork {
   double loads = 0.0;     ///< increase of the potential energy by loads that change in time
   double supports = 0.0;  ///< work of moving supports
