@@ -18,13 +18,29 @@ bool shows_anything(const RingSum& ring) {
   return ring.cv_pressure > 0.0 || ring.largest_friction_use > 0.0 || ring.largest_kern > 0.0;
 }
 
+/// A row per ring. A blank one ends a line: where another member begins, or the other haunch of an arch, to
+/// which the course at the crown belongs, too.
+Rows ring_rows(const Evaluation& e) {
+  Rows rows;
+  const RingSum* last = nullptr;
+  double step = 0.0;  // m, of the height from the ring before the last one
+  for (const RingSum& r : e.rings) {
+    if (r.blocks == 0) continue;
+    const bool other = last && e.assembly.sheet_of(r.ring) != e.assembly.sheet_of(last->ring);
+    const double next = last ? r.height - last->height : 0.0;
+    const bool turns = !other && next * step < 0.0;
+    if (other || turns) rows.emplace_back();
+    if (turns) rows.push_back(rows[rows.size() - 2]);
+    if (other || next != 0.0) step = other ? 0.0 : next;
+    last = &r;
+    rows.push_back({r.height, 100.0 * r.cv_pressure, 100.0 * r.largest_friction_use, r.largest_kern});
+  }
+  return rows;
+}
+
 }  // namespace
 
 Figure ring_figure(const Evaluation& e) {
-  Rows rows;
-  for (const RingSum& r : e.rings)
-    if (r.blocks > 0)
-      rows.push_back({r.height, 100.0 * r.cv_pressure, 100.0 * r.largest_friction_use, r.largest_kern});
   const bool vault = is_vault(e);
   Figure f;
   f.name = "rings";
@@ -37,21 +53,19 @@ Figure ring_figure(const Evaluation& e) {
   f.width = 1000;
   f.height = 420;
   f.commands =
-      plot_style() + data_block("rings", rows) +
-      panels(panel_grid(1, 2, {0.08, 0.97, 0.16, 0.95}, 0.1, 0.0),
-             {fmt::format("unset key\nset ylabel 'height (m)'\nset xrange [0:0.1<*]\n"
-                          "set xlabel 'variation of the bed pressure (%)'\n"
-                          "plot $rings using 2:1 w lp lc rgb '{}' pt 7 ps 0.5 lw 1.5\n",
-                          kBlue),
-              fmt::format(
-                  "set xlabel 'largest kern use; friction use (1 = 100 %)'\nset xrange [0:1.1<*]\n"
-                  "set arrow from 1, graph 0 to 1, graph 1 nohead dt 3 lc rgb '#444444'\n"
-                  "plot $rings using ($3/100):1 w lp lc rgb '{}' pt 7 ps 0.5 lw 1.5, "
-                  "$rings using 4:1 w lp lc rgb '{}' pt 5 ps 0.5 lw 1.5{}{}\n",
-                  kGreen, kPurple,
-                  curve_label("rings", rows.size() / 4, "$3/100", "$1", "friction", kGreen,
-                              "right offset -0.9,0"),
-                  curve_label("rings", rows.size() / 4, "$4", "$1", "kern", kPurple, "left offset 0.9,0"))});
+      plot_style() + data_block("rings", ring_rows(e)) +
+      panels(
+          panel_grid(1, 2, {0.08, 0.97, 0.16, 0.92}, 0.1, 0.0),
+          {fmt::format("unset key\nset ylabel 'height (m)'\nset xrange [0:0.1<*]\n"
+                       "set xlabel 'variation of the bed pressure (%)'\n"
+                       "plot $rings using 2:1 w lp lc rgb '{}' pt 7 ps 0.5 lw 1.5\n",
+                       kBlue),
+           fmt::format("set xlabel 'largest kern use; friction use (1 = 100 %)'\nset xrange [0:1.1<*]\n"
+                       "set arrow from 1, graph 0 to 1, graph 1 nohead dt 3 lc rgb '#444444'\n"
+                       "set key at graph 0.5,1.1 center top horizontal\n"
+                       "plot $rings using ($3/100):1 w lp lc rgb '{}' pt 7 ps 0.5 lw 1.5 title 'friction', "
+                       "$rings using 4:1 w lp lc rgb '{}' pt 5 ps 0.5 lw 1.5 title 'kern'\n",
+                       kGreen, kPurple)});
   return f;
 }
 

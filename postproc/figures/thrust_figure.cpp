@@ -111,14 +111,51 @@ std::string profile_plot(const MeridianEvaluation& m, const Summary& summary, bo
       kOrange, kGreen, kSky, title, ends, pressed);
 }
 
-/// Gnuplot command for at most six tick marks from zero to `largest`: narrow panels have no room for more.
-std::string few_ticks(double largest) {
-  if (!(largest > 0.0)) return "set xtics auto\n";
-  const double least = largest / 5.0, power = std::pow(10.0, std::floor(std::log10(least)));
+/// Gnuplot command for at most `most` steps between the tick marks of an axis: narrow panels have no room for
+/// more. `length`: of the axis.
+std::string few_ticks(char axis, double length, double most) {
+  if (!(length > 0.0)) return fmt::format("set {}tics auto\n", axis);
+  const double least = length / most, power = std::pow(10.0, std::floor(std::log10(least)));
   double step = power;
   for (const double factor : {2.0, 5.0, 10.0})
     if (step < least) step = factor * power;
-  return fmt::format("set xtics {}\n", step);
+  return fmt::format("set {}tics {}\n", axis, step);
+}
+
+/// Largest values of the graphs beside or below the profile.
+struct GraphRanges {
+  double resultant = 0.0;  // in the unit of the figure
+  double couple = 0.0;     // m
+  double distance = 0.0;   // m, from a face
+  double outside = 0.0;    // m, beyond a face
+};
+
+GraphRanges graph_ranges(const ThrustLine& line, const ForceUnit& unit) {
+  GraphRanges out;
+  for (const ThrustPoint& p : line.points) {  // skips NaN
+    out.resultant = std::fmax(out.resultant, unit.per_newton * p.r);
+    out.couple = std::fmax(out.couple, p.couple_length);
+    out.distance = std::fmax(out.distance, p.face_distance);
+    out.outside = std::fmax(out.outside, -p.face_distance);
+  }
+  return out;
+}
+
+/// Where the legend of a profile begins that has its end at the foot of the line, m. `low`: m, lowest height
+/// shown.
+double left_of_foot(const ThrustLine& line, double low, double pixels_per_metre) {
+  constexpr double kWidth = 215.0, kHeight = 130.0;  // pixels, of the legend
+  double foot = std::numeric_limits<double>::infinity();
+  for (const ThrustPoint& p : line.points)
+    if (p.intrados.z() < low + kHeight / pixels_per_metre)
+      for (const Vec3& q : {p.intrados, p.extrados, p.is_placed() ? p.point : p.intrados})
+        foot = std::min(foot, profile_abscissa(line, q));
+  return foot - kWidth / pixels_per_metre;
+}
+
+/// The end of the axis of couple lengths, which spans at least `least`, m: rounding fills no panel.
+std::string end_of_couples(double largest, double least, const WytheCurves& wythes) {
+  return largest > least || !wythes.couple.empty() ? "*" : fmt::to_string(least);
 }
 
 /// Four panels with a common height axis: profile, resultant, couple length, distance to the nearer face.
@@ -137,16 +174,13 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
   }
   z.widen();
   x.widen();
-  constexpr double kLeastCouple = 0.2;  // m, range of the panel
-  double resultant = 0.0, couple = kLeastCouple, distance = 0.0;
-  for (const ThrustPoint& p : m.thrust.points) {
-    resultant = std::fmax(resultant, unit.per_newton * p.r);
-    couple = std::fmax(couple, p.couple_length);  // skips NaN
-    distance = std::fmax(distance, std::abs(p.face_distance));
-  }
+  constexpr double kLeastCouple = 0.2, kSteps = 5.0;  // m, range of the panel; steps between tick marks
+  const GraphRanges graphs = graph_ranges(m.thrust, unit);
+  const double couple = std::max(kLeastCouple, graphs.couple);
   // Both axes of the profile have the same scale: the height of the panel in pixels sets its width.
   constexpr double kBottom = 0.10, kTop = 0.93, kLeft = 0.07;
   const double pixels_per_metre = (kTop - kBottom) * height / (z.high - z.low);
+  x.low = std::min(x.low, left_of_foot(m.thrust, z.low, pixels_per_metre));
   const double right = std::min(0.50, kLeft + (x.high - x.low) * pixels_per_metre / width);
   x.high = std::max(x.high, x.low + (right - kLeft) * width / pixels_per_metre);
   const double gap = 0.045;
@@ -164,33 +198,39 @@ std::string vault_panels(const MeridianEvaluation& m, int width, int height, con
                    kBlue, kOrange, unit.name,
                    curve_label("graphs", rows / 2, "$2", "$1", "r: norm", kBlue, "left offset 1.2,0"),
                    curve_label("graphs", rows / 4, "$3", "$1", "v: vertical", kOrange, "right offset -1.2,0"),
-                   few_ticks(resultant), wythes.resultant),
+                   few_ticks('x', graphs.resultant, kSteps), wythes.resultant),
        fmt::format("{}set xlabel 'couple length (m)'\nset xrange [0:{}]\n"
                    "plot $graphs using 4:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
-                   few_ticks(couple),
-                   couple > kLeastCouple || !wythes.couple.empty() ? "*" : fmt::to_string(kLeastCouple),
+                   few_ticks('x', couple, kSteps), end_of_couples(graphs.couple, kLeastCouple, wythes),
                    kPurple, wythes.couple),
        fmt::format("{}set xlabel 'distance to the nearer face (m)'\nset xrange [*<0:*]\n"
                    "plot $graphs using 5:1 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
-                   few_ticks(distance), kGreen, wythes.distance)});
+                   few_ticks('x', graphs.distance + graphs.outside, kSteps), kGreen, wythes.distance)});
 }
 
 /// Profile on top; below it resultant, couple length and distance to the nearer face, over x.
-std::string arch_panels(const ForceUnit& unit, const std::string& profile, const WytheCurves& wythes) {
+std::string arch_panels(const MeridianEvaluation& m, const ForceUnit& unit, const std::string& profile,
+                        const WytheCurves& wythes) {
+  constexpr double kLeastCouple = 1e-3, kSteps = 4.0;  // m, range of the panel; steps between tick marks
+  const GraphRanges graphs = graph_ranges(m.thrust, unit);
+  const double couple = std::max(kLeastCouple, graphs.couple);
   const auto band = [](double bottom, double top) { return PanelBox{0.09, 0.97, bottom, top}; };
   return panels(
-      {band(0.57, 0.97), band(0.41, 0.51), band(0.245, 0.345), band(0.08, 0.18)},
-      {"set size ratio -1\nset ylabel 'height (m)'\nset key bottom center\n" + profile,
-       fmt::format("set size noratio\nset key top center\nset ylabel 'resultant ({2})'\nset yrange [0:*]\n"
+      {band(0.57, 0.95), band(0.41, 0.51), band(0.245, 0.345), band(0.08, 0.18)},
+      {"set size ratio -1\nset ylabel 'height (m)'\nset key at screen 0.5,0.995 center top horizontal\n" +
+           profile,
+       fmt::format("{4}set size noratio\nset key inside top center vertical\nset ylabel 'resultant "
+                   "({2})'\nset yrange [0:*]\n"
                    "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', "
                    "$graphs using 1:(abs($3)) w l lc rgb '{1}' dt 2 title 'v: vertical'{3}\n",
-                   kBlue, kOrange, unit.name, wythes.resultant),
-       fmt::format("set ylabel 'couple length (m)'\nset yrange [0:0.001<*]\n"
+                   kBlue, kOrange, unit.name, wythes.resultant, few_ticks('y', graphs.resultant, kSteps)),
+       fmt::format("{}set ylabel 'couple length (m)'\nset yrange [0:{}]\n"
                    "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
-                   kPurple, wythes.couple),
-       fmt::format("set xlabel 'x (m)'\nset ylabel 'to face (m)'\nset yrange [*<0:*]\n"
+                   few_ticks('y', wythes.couple.empty() ? couple : 0.0, kSteps),
+                   end_of_couples(graphs.couple, kLeastCouple, wythes), kPurple, wythes.couple),
+       fmt::format("{}set xlabel 'x (m)'\nset ylabel 'to face (m)'\nset yrange [*<0:*]\n"
                    "plot $graphs using 1:5 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
-                   kGreen, wythes.distance)});
+                   few_ticks('y', graphs.distance + graphs.outside, kSteps), kGreen, wythes.distance)});
 }
 
 }  // namespace
@@ -232,9 +272,9 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   f.width = 1200;
   f.height = arch ? 900 : 560;
   const std::string profile = m.wythes.empty() ? profile_plot(m, e.summary, zones) : wythe_profile(wythes);
-  f.commands =
-      plot_style() + thrust_data(m, unit) + wythes.data +
-      (arch ? arch_panels(unit, profile, wythes) : vault_panels(m, f.width, f.height, unit, profile, wythes));
+  f.commands = plot_style() + thrust_data(m, unit) + wythes.data +
+               (arch ? arch_panels(m, unit, profile, wythes)
+                     : vault_panels(m, f.width, f.height, unit, profile, wythes));
   return f;
 }
 

@@ -131,7 +131,7 @@ void Painter::new_view(double left, double right) {
 }
 
 void Painter::add_faces(const std::vector<Vec3>& points, const std::vector<std::vector<int>>& faces,
-                        const std::vector<Colour>& colours, double opacity) {
+                        const std::vector<Colour>& colours, double opacity, bool in_front) {
   include(points);
   const vtkNew<vtkPolyData> mesh = vtk_faces(points, faces);
   vtkNew<vtkUnsignedCharArray> bytes;
@@ -140,7 +140,7 @@ void Painter::add_faces(const std::vector<Vec3>& points, const std::vector<std::
   mesh->GetCellData()->SetScalars(bytes);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(mesh);
-  vtkProperty* look = scene_->add(mapper)->GetProperty();
+  vtkProperty* look = scene_->add(mapper, in_front)->GetProperty();
   look->SetInterpolationToFlat();
   look->SetAmbient(0.42);
   look->SetDiffuse(0.7);
@@ -220,6 +220,9 @@ void Painter::add_legend(const std::string& title, const ColourScale& scale, dou
   bar->SetWidth(0.5);
   bar->SetHeight(0.075);
   scene_->view->AddActor2D(bar);
+  constexpr double kBesideBar = 0.015, kLeft = 0.235, kRight = 0.765;
+  if (scale.below) add_text("≤", kBesideBar, kLeft);
+  if (scale.above) add_text("≥", kBesideBar, kRight);
   add_text(title, 0.105);
 }
 
@@ -227,14 +230,14 @@ void Painter::add_caption(const std::string& text) {
   add_text(text, 0.04);
 }
 
-void Painter::add_text(const std::string& text, double height) {
+void Painter::add_text(const std::string& text, double height, double across) {
   vtkNew<vtkTextActor> actor;
   actor->SetInput(text.c_str());
   actor->GetTextProperty()->SetFontSize(26);
   actor->GetTextProperty()->SetColor(0.1, 0.1, 0.1);
   actor->GetTextProperty()->SetJustificationToCentered();
   actor->GetPositionCoordinate()->SetCoordinateSystemToNormalizedViewport();
-  actor->SetPosition(0.5, height);
+  actor->SetPosition(across, height);
   scene_->view->AddActor2D(actor);
   scene_->has_text = true;
 }

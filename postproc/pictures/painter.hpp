@@ -15,6 +15,7 @@ using Colour = std::array<double, 3>;  ///< red, green, blue, 0 to 1
 struct ColourScale {
   std::vector<Colour> stops;
   double low = 0.0, high = 1.0;
+  bool below = false, above = false;  ///< there are values beyond its ends
   Colour at(double value) const;
 };
 
@@ -29,8 +30,9 @@ class Painter {
 
   /// What is added next appears between these two shares of the picture's width.
   void new_view(double left, double right);
+  /// `in_front`: also where other faces would hide them.
   void add_faces(const std::vector<Vec3>& points, const std::vector<std::vector<int>>& faces,
-                 const std::vector<Colour>& colours, double opacity = 1.0);
+                 const std::vector<Colour>& colours, double opacity = 1.0, bool in_front = false);
   /// Edges at which two faces enclose more than 20 degrees.
   void add_edges(const std::vector<Vec3>& points, const std::vector<std::vector<int>>& faces);
   /// `in_front`: also where faces would hide them.
@@ -48,7 +50,7 @@ class Painter {
 
  private:
   void fill_view();
-  void add_text(const std::string& text, double height);  // share of the view
+  void add_text(const std::string& text, double height, double across = 0.5);  // shares of the view
 
   struct Scene;
   std::unique_ptr<Scene> scene_;

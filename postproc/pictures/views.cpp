@@ -51,12 +51,15 @@ ColourScale scale_of(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const size_t rim = values.size() / 100;
   const double low = values[rim], high = values[values.size() - 1 - rim];
+  ColourScale scale{kSequential, low < 0.0 ? -round_up(-low) : 0.0, high > 0.0 ? round_up(high) : 0.0};
   if (low < 0.0 && high > 0.0) {
-    const double most = round_up(std::max(-low, high));
-    return {kDiverging, -most, most};
+    scale = {kDiverging, -std::max(-scale.low, scale.high), std::max(-scale.low, scale.high)};
+  } else if (low == 0.0 && high == 0.0) {
+    scale.high = 1.0;
   }
-  if (high > 0.0) return {kSequential, 0.0, round_up(high)};
-  return {kSequential, low < 0.0 ? -round_up(-low) : 0.0, low < 0.0 ? 0.0 : 1.0};
+  scale.below = values.front() < scale.low;
+  scale.above = values.back() > scale.high;
+  return scale;
 }
 
 /// What the colours of the bond mean, as far as the model has them.
@@ -115,22 +118,26 @@ bool draw_forces(const Pictured& run, Painter* painter) {
   if (magnitudes.empty()) return false;
   largest = *std::max_element(magnitudes.begin(), magnitudes.end());
   const ColourScale scale = scale_of(magnitudes);
-  const double length = common_scale(e);
+  // Large blocks have few joints, whose arrows would be short beside them: the longest is at least a tenth of
+  // the model.
+  const double size = model_size(e.assembly);
+  const double length = std::max(common_scale(e), 0.1 * size / largest);
+  const double thickness = std::max(kArrowThickness * length * largest, 0.004 * size);
   Coloured arrows;
   for (const JointWrench& joint : e.last.joints.wrenches) {
     if (joint.negligible) continue;
     BlockSurface arrow;
     const double sign = joint.upper == joint.block_a ? -1.0 : 1.0;
-    add_arrow(joint.centre_of_pressure, sign * length * joint.wrench.force,
-              kArrowThickness * length * largest, &arrow);
+    add_arrow(joint.centre_of_pressure, sign * length * joint.wrench.force, thickness, &arrow);
     arrows.add(arrow, scale.at(joint.wrench.force.norm()));
   }
-  painter->add_faces(arrows.surface.vertices, arrows.surface.faces, arrows.colours);
+  const bool through_blocks = !is_vault(e);  // which are see-through
+  painter->add_faces(arrows.surface.vertices, arrows.surface.faces, arrows.colours, 1.0, through_blocks);
   Coloured supports, blocks;
   for (size_t b = 0; b < run.blocks.size(); ++b)
     (e.assembly.blocks[b].fixed ? supports : blocks).add(run.blocks[b], bond_colour(e.assembly.blocks[b]));
   supports.paint(painter);
-  if (!is_vault(e)) blocks.paint(painter, 0.15);
+  if (through_blocks) blocks.paint(painter, 0.15);
   const double unit = largest >= 1e6 ? 1e6 : 1e3;
   painter->add_legend(
       fmt::format("Joint force, {} (largest {:.4g})", largest >= 1e6 ? "MN" : "kN", largest / unit), scale,

@@ -317,6 +317,19 @@ TEST(Figures, AreLeftOutWhereEverythingIsNegligible) {
   EXPECT_NE(force_map(map, scales).commands.find("vertical force"), std::string::npos);
 }
 
+// Courses of an arch from one springing to the other: a line up each haunch, which meet at the crown.
+TEST(RingFigure, HasALinePerHaunch) {
+  Evaluation e = test::column_evaluation(0.9, 0.4);
+  e.assembly.sheets.clear();  // which have only the rings of the column
+  e.rings.clear();
+  for (const double height : {0.0, 1.0, 2.0, 1.5, 0.5})
+    e.rings.push_back({.ring = static_cast<int>(e.rings.size()), .height = height, .blocks = 1});
+  const std::string commands = ring_figure(e).commands;
+  EXPECT_NE(commands.find("\n0 0 0 0 \n1 0 0 0 \n2 0 0 0 \n\n2 0 0 0 \n1.5 0 0 0 \n0.5 0 0 0 \n"),
+            std::string::npos)
+      << commands;
+}
+
 TEST(SectionFigure, StatesScaleAndGlobalCheck) {
   const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
   const Figure figure = section_figure(e, e.sections[0]);
