@@ -18,6 +18,7 @@
 #include "assembly/files/number_text.hpp"
 #include "assembly/files/results_file.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/ending.hpp"
 #include "assembly/model/relative_compliance.hpp"
 #include "assembly/program/terminal.hpp"
 #include "assembly/program/warnings.hpp"
@@ -133,7 +134,8 @@ void print_summary(const Summary& summary, bool verbose) {
   if (summary.critical && summary.analysis == AnalysisType::limit && reached(summary.status))
     fmt::print("{}\n", in_colour(summary.message, colour, stdout));
   else
-    fmt::print("{}: {}\n", in_colour(words_of(summary.status), colour, stdout), summary.message);
+    fmt::print("{}: {}\n", in_colour(words_of(summary.status, summary.analysis), colour, stdout),
+               summary.message);
   if (!verbose) {
     fmt::print("  {}, weight {}; {:.3g} s; --verbose prints steps and residuals\n",
                counted(summary.free_blocks, "free block"), readable_force(summary.weight_N),

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/model/ending.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/gives_way.hpp"
@@ -101,14 +102,31 @@ KeyNumber least_answer(const Evaluation& e) {
           clause};
 }
 
+/// What the structure bears at the last equilibrium of a path that ends early.
+KeyNumber end_of_path(const Evaluation& e) {
+  const double weight = e.summary.weight_N;
+  Vec3 pull = weight * e.last.gravity.normalized();
+  for (const PointForce& load : e.last.loads) pull += load.force;
+  const double aside = (pull - pull.dot(e.up) * e.up).norm();
+  std::vector<std::string> borne;
+  constexpr double kRounding = 1e-9;  // of the weight
+  if (aside > kRounding * weight)
+    borne.push_back(
+        fmt::format("horizontal loads of {}, {:.3g} of the weight", force_text(aside), aside / weight));
+  if (const std::string loads = loads_text(e); !loads.empty()) borne.push_back(loads);
+  if (support_motion(e) > 0.0) borne.push_back(moved_text(e));
+  return {"End of the path", fmt::format("{:.4g} s of {:.4g}", e.last.frame.time, e.scene.analysis.path.end),
+          fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
+}
+
 bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
 
 }  // namespace
 
-VerdictWords words_of_status(Status status) {
-  std::string words = words_of(status);
+VerdictWords words_of_status(Status status, AnalysisType analysis) {
+  std::string words = words_of(status, analysis);
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
   return {words, stands(status)};
 }
@@ -118,16 +136,17 @@ VerdictWords verdict_words(const Evaluation& e) {
     return {parts.contains("It falls") ? "It stands, except for what falls"
                                        : "It stands, except for what is undecided",
             false};
-  if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status);
+  const AnalysisType analysis = e.summary.analysis;
+  if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status, analysis);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
-  if (critical.parameter == "peak_stress") return words_of_status(e.summary.status);
+  if (critical.parameter == "peak_stress") return words_of_status(e.summary.status, analysis);
   if (!own) return {"Limit found", reached(e.summary.status)};  // which says nothing of the case
   const bool upwards = critical.stable < critical.moving;
   const bool proven = e.summary.friction_law == FrictionLaw::associated;
-  if (upwards ? *own <= critical.stable : *own >= critical.stable) return words_of_status(Status::stable);
-  return words_of_status((upwards ? *own >= critical.moving : *own <= critical.moving) ? motion(proven)
-                                                                                       : Status::bracketed);
+  const bool stands = upwards ? *own <= critical.stable : *own >= critical.stable;
+  const bool moves = upwards ? *own >= critical.moving : *own <= critical.moving;
+  return words_of_status(stands ? Status::stable : moves ? motion(proven) : Status::bracketed, analysis);
 }
 
 KeyNumber margin_answer(const Evaluation& e) {
@@ -148,9 +167,10 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
     return least_answer(e);
   if (!at_rest(e))
-    return {"Margin", moves(e.summary.status) || e.summary.status == Status::collapsed ? "none" : "unknown",
+    return {"Margin", falls(e.summary.status, e.summary.analysis) ? "none" : "unknown",
             lack_of_equilibrium(e.summary, e.last.frame.role) +
                 "; to compute what it lacks: " + command_for_margins(e)};
+  if (e.last.frame.role == FrameRole::path && !stands(e.summary.status)) return end_of_path(e);
   return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }
 

@@ -17,11 +17,16 @@ struct VerdictWords {
 };
 
 /// The words of a status.
-VerdictWords words_of_status(Status status);
+VerdictWords words_of_status(Status status, AnalysisType analysis);
 
 /// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit
 /// the case lies.
 VerdictWords verdict_words(const Evaluation& evaluation);
+
+/// How far the supports have moved, m; 0 without an equilibrium or within rounding.
+double support_motion(const Evaluation& evaluation);
+/// "support block 0 has moved by 5 mm", "3 supports have moved by up to 5 mm". One must have moved.
+std::string moved_text(const Evaluation& evaluation);
 
 /// Why, in one to three sentences: the verdict of the run, moved supports, parts that move.
 std::string reason_for_verdict(const Evaluation& evaluation);

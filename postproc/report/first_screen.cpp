@@ -43,6 +43,22 @@ KeyNumber range_number_of(const ForceRange& range) {
           "certain for every history" + chosen};
 }
 
+/// A bar for each of a few warnings; of more, one that opens.
+std::string warnings_html(const std::vector<std::string>& warnings) {
+  constexpr size_t kMostBars = 3;
+  std::string out;
+  if (warnings.size() <= kMostBars) {
+    for (const std::string& warning : warnings)
+      out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
+    return out;
+  }
+  for (const std::string& warning : warnings) out += "<li>" + markup_text(warning) + "</li>\n";
+  return fmt::format(
+      "<details class=\"warning\"><summary><strong>{} warnings</strong>; the first: {}</summary>\n"
+      "<ul>\n{}</ul></details>\n",
+      warnings.size(), markup_text(warnings.front()), out);
+}
+
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
   for (const ForceRange& range : e.summary.ranges)
     if (out->size() < 2 && range.quantity != "thrust") out->push_back(range_number_of(range));
@@ -83,9 +99,12 @@ std::string how_sure(const Evaluation& e) {
     return fmt::format("No bound of the error of the forces is proven: {}.", certificate.bounds);
   const std::string article = certificate.bounds.starts_with("the ") ? "" : "the ";
   const int digits = static_cast<int>(std::floor(-std::log10(std::max(*certificate.value, 1e-16))));
-  const std::string lead =
-      digits > 0 ? fmt::format("The forces of this model are proven to {}", counted(digits, "digit"))
-                 : "The forces of this model are known only roughly";
+  // The bound compares with an exact solution, which a stable_unproven run has not proven to exist.
+  const std::string forces = s.status == Status::stable_unproven
+                                 ? "If exact forces exist, the forces of this model"
+                                 : "The forces of this model";
+  const std::string lead = digits > 0 ? fmt::format("{} are proven to {}", forces, counted(digits, "digit"))
+                                      : forces + " are known only roughly";
   return fmt::format("{}: {}{} is at most {:.1e}.", lead, article, certificate.bounds, *certificate.value);
 }
 
@@ -121,8 +140,7 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
                          const StageReport* construction, const std::string& viewer) {
   const VerdictWords verdict = verdict_words(e);
   std::string out = verdict_html(verdict.words, reason_for_verdict(e), verdict.good);
-  for (const std::string& warning : notices(e))
-    out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
+  out += warnings_html(notices(e));
   std::vector<KeyNumber> numbers = key_numbers(e, history);
   if (construction)
     numbers.insert(numbers.begin(),

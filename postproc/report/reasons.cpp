@@ -28,9 +28,6 @@ std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Summary& 
   return found;
 }
 
-namespace {
-
-/// How far the supports have moved, m; 0 without an equilibrium or within rounding.
 double support_motion(const Evaluation& e) {
   double farthest = 0.0;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
@@ -39,7 +36,6 @@ double support_motion(const Evaluation& e) {
   return farthest > e.last.joints.floor.length ? farthest : 0.0;
 }
 
-/// "support block 0 has moved by 5 mm", "3 supports have moved by up to 5 mm".
 std::string moved_text(const Evaluation& e) {
   std::vector<size_t> moved;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
@@ -52,6 +48,8 @@ std::string moved_text(const Evaluation& e) {
   return fmt::format("{} has moved by {}",
                      name.empty() ? fmt::format("support block {}", moved.front()) : name, distance);
 }
+
+namespace {
 
 /// True if some joints are given a compressive strength.
 bool limits_pressure(const Joints& joints) {
@@ -79,15 +77,20 @@ std::string carried_text(const Evaluation& e) {
   return carry + ".";
 }
 
-/// A motion ends as a collapse when a block has moved farther than the threshold.
-std::string collapsed_text(const Evaluation& e) {
+/// How a motion in time ended that is not at rest: by how much the blocks have moved, and what still moves.
+std::string motion_text(const Evaluation& e) {
   double farthest = 0.0;
   for (const Vec3& displacement : e.last.frame.blocks.displacement)
     farthest = std::max(farthest, displacement.norm());
-  return fmt::format("Within {:.4g} s a block moves by {}{}; a displacement above {} counts as collapse.",
-                     e.last.frame.time, length_text(farthest),
-                     e.scene.supports.base_motion ? " relative to the ground" : "",
-                     length_text(e.scene.analysis.thresholds.collapse()));
+  const std::string moved = fmt::format(
+      "Within {:.4g} s a block moves by {}{}; a displacement above {} counts as collapse.", e.last.frame.time,
+      length_text(farthest), e.scene.supports.base_motion ? " relative to the ground" : "",
+      length_text(e.scene.analysis.thresholds.collapse()));
+  if (e.summary.status == Status::collapsed) return moved;
+  return fmt::format(
+      "{} At the end it is not at rest: {}. It may vibrate with its loads, come to rest, or fall: "
+      "follow it for longer.",
+      moved, e.summary.message);
 }
 
 std::string friction_text(const Joints& joints) {
@@ -184,8 +187,8 @@ std::string reason_for_verdict(const Evaluation& e) {
   std::string text;
   if (shows_the_case(e) && stands(s.status))
     text = carried_text(e);
-  else if (s.status == Status::collapsed)
-    text = collapsed_text(e);
+  else if (e.last.frame.role == FrameRole::step && (s.status == Status::collapsed || moves(s.status)))
+    text = motion_text(e);
   else if (s.critical && !is_stage(e.last.frame.role))
     text = limit_text(e);
   else

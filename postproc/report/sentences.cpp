@@ -7,6 +7,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/tables/post_summary.hpp"
@@ -114,10 +115,9 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
                           "the kern. Where it exceeds 1, part of the joint is unloaded.",
                           *s.mean_kern_use));
   if (s.max_displacement_m)
-    out.push_back(fmt::format(
-        "The largest displacement of a block is {}, from the compliance of the joints and the motion of "
-        "the supports.",
-        length_text(*s.max_displacement_m)));
+    out.push_back(fmt::format("The largest displacement of a block is {}{}.",
+                              length_text(*s.max_displacement_m),
+                              support_motion(e) > 0.0 ? ", the motion of the supports included" : ""));
   return out;
 }
 

@@ -15,10 +15,10 @@ namespace {
 using Least = StagedConstruction::Least;
 constexpr const char* kStands = "equilibrium";  // verdict of a stage
 
-/// A curve over the stages; none if it has no value above zero.
+/// A curve over the stages; none if it has no values.
 std::optional<Figure> curve_over_stages(const std::vector<std::vector<double>>& points, const char* x_label,
                                         const std::string& y_label) {
-  if (std::none_of(points.begin(), points.end(), [](const auto& point) { return point[1] > 0.0; }))
+  if (std::ranges::none_of(points, [](const auto& point) { return std::isfinite(point[1]); }))
     return std::nullopt;
   Figure f;
   f.name = "stages";
@@ -150,8 +150,8 @@ StageReport report_stages(const Evaluation& e, Least least, const CsvFile& csv,
   out.figure->title =
       fmt::format("Construction: {} required of the fresh mortar, stage by stage", to_string(least));
   out.figure->caption = fmt::format(
-      "The least {} of the joints with fresh mortar with which each stage stands (0: it needs none); {}.",
-      to_string(least), out.worst);
+      "The least {} of the joints with fresh mortar with which each stage stands (0: it needs none){}{}.",
+      to_string(least), out.worst.empty() ? "" : "; ", out.worst);
   return out;
 }
 

@@ -12,10 +12,9 @@ namespace cupola {
 
 /// What a staged run shows of its stages.
 struct StageReport {
-  Table table;  ///< one row per stage
-  std::optional<Figure>
-      figure;         ///< what fresh mortar must provide; none if no stage needs it, or none was searched
-  int standing = 0;   ///< stages
+  Table table;                   ///< one row per stage
+  std::optional<Figure> figure;  ///< what fresh mortar must provide; none if that was not searched
+  int standing = 0;              ///< stages
   std::string worst;  ///< the first stage that does not stand, else the most demanding; "" for neither
 };
 

@@ -78,8 +78,9 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
   f.name = "distributions";
   f.title = "Share of the members up to a value";
   f.caption =
-      "Of a critical value, such as the friction at which a vault falls, the curve is the fragility: the "
-      "share that falls at that value.";
+      "Of a critical value up to which a structure stands (load, acceleration, tilt) the curve is the "
+      "fragility: the share that falls at that value; of one that it needs (friction, thickness), the share "
+      "that stands there.";
   std::vector<size_t> columns = ensembles.front().results;
   if (columns.size() > kMostResults) columns.resize(kMostResults);
   if (columns.empty()) return f;
@@ -102,7 +103,8 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
           fmt::format("{} ${} using 1:2 w steps lc rgb '{}' lw 1.5 title '{}'", plot.empty() ? "plot" : ",",
                       block, kEnsembleColours[e % kEnsembleColours.size()], gnuplot_text(ensembles[e].name));
     }
-    plots.push_back(fmt::format("set xlabel '{}{}'\n", gnuplot_text(column.meaning),
+    plots.push_back(fmt::format("set xlabel '{}{}'\n",
+                                gnuplot_text(column.meaning.substr(0, column.meaning.find(':'))),
                                 column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")") +
                     plot + "\n");
   }

@@ -125,7 +125,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   for (const size_t k : columns) {
     const Table::Column& column = table.columns[k];
     const auto [factor, unit] = readable_unit(table, k);
-    plots.push_back(fmt::format("set ylabel '{}{}'\nset yrange [{}:*]\n", gnuplot_text(column.meaning),
+    const std::string label = column.meaning.substr(0, column.meaning.find(':'));
+    plots.push_back(fmt::format("set ylabel '{}{}'\nset yrange [{}:*]\n", gnuplot_text(label),
                                 unit.empty() ? "" : " (" + gnuplot_text(unit) + ")",
                                 is_positive(table, k) ? "0" : "*"));
     std::string plot;

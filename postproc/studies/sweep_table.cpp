@@ -51,6 +51,13 @@ std::string unit_of_limit(const std::vector<StudyRun>& members, const std::strin
   return "";
 }
 
+/// How a run ended: its status, or that a motion has not come to rest, which is no verdict.
+std::string ending_of(RunFiles& run) {
+  const std::string status = run.status();
+  const bool in_time = std::holds_alternative<double>(number_or_empty(run, "results.max_speed_m_per_s"));
+  return in_time && status == to_string(Status::moving) ? "not at rest" : status;
+}
+
 /// The last stage that a missing member completed, and what to do.
 std::string progress(const std::string& folder) {
   const auto there = [&](const char* file) { return std::filesystem::exists(folder + "/" + file); };
@@ -139,7 +146,7 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
     ranges.push_back(ranges_of_member(folder));
     if (std::filesystem::exists(folder + "/results/summary.json")) {
       RunFiles run(folder);
-      row.emplace_back(run.status());
+      row.emplace_back(ending_of(run));
       row.emplace_back(std::string());
       for (const Table::Column& column : numbers) row.push_back(result_of(run, column.key));
     } else {

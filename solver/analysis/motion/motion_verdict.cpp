@@ -47,8 +47,8 @@ void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, 
                     rest.last_fast_speed(), thresholds.speed, rest.last_fast_time(), thresholds.window);
   } else if (rest.drift() > RestWindow::largest_drift(thresholds)) {
     summary->message = fmt::format(
-        "a block moves slowly in one direction: {:.3g} m/s on average over the last {:.3g} s, more than a "
-        "tenth of the threshold {:.3g} m/s",
+        "a block has moved by {:.3g} m/s on average over the last {:.3g} s, more than a tenth of the "
+        "threshold {:.3g} m/s",
         rest.drift(), thresholds.window, thresholds.speed);
   } else {
     summary->status = Status::stable;

@@ -198,13 +198,91 @@ TEST(FirstScreen, SaysWhetherTheVerdictIsProven) {
                                             {Status::collapsed, "It falls", false},
                                             {Status::bracketed, "Undecided", false},
                                             {Status::unconverged, "Undecided", false}}) {
-    EXPECT_EQ(words_of_status(status).words, words);
-    EXPECT_EQ(words_of_status(status).good, good) << words;
+    EXPECT_EQ(words_of_status(status, AnalysisType::static_).words, words);
+    EXPECT_EQ(words_of_status(status, AnalysisType::static_).good, good) << words;
   }
   Evaluation e = test::column_evaluation(0.6, 0.4);
   EXPECT_TRUE(certain_sentence(e).starts_with("Certain: forces")) << certain_sentence(e);
   e.summary.status = Status::stable_unproven;
   EXPECT_TRUE(certain_sentence(e).starts_with("Not certain: forces")) << certain_sentence(e);
+}
+
+// The bound of the error holds for exact forces, which may not exist if the verdict is not proven.
+TEST(FirstScreen, ABoundOfUnprovenForcesHoldsIfExactOnesExist) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.forces_unique = {true, "compliant"};
+  e.summary.certified_force_error = {6e-6, "relative error of the wrench on any joint"};
+  EXPECT_TRUE(how_sure(e).starts_with("The forces of this model are proven to 5 digits")) << how_sure(e);
+  e.summary.status = Status::stable_unproven;
+  EXPECT_TRUE(how_sure(e).starts_with("If exact forces exist, the forces")) << how_sure(e);
+}
+
+// The motion of supports is a cause of displacement only where they move.
+TEST(FirstScreen, TheLargestDisplacementNamesSupportsOnlyIfTheyMove) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.max_displacement_m = 0.02;
+  EXPECT_EQ(finding_sentences(e).back(), "The largest displacement of a block is 20 mm.");
+  e.last.frame.blocks.displacement[0] = Vec3(0.01, 0, 0);
+  EXPECT_EQ(finding_sentences(e).back(),
+            "The largest displacement of a block is 20 mm, the motion of the supports included.");
+}
+
+TEST(FirstScreen, ManyWarningsAreOneLineThatOpens) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  const auto bars = [&e] {
+    const std::string html = first_screen(e, {}, nullptr, "");
+    int count = 0;
+    for (size_t at = html.find("class=\"warning\""); at != std::string::npos;
+         at = html.find("class=\"warning\"", at + 1))
+      ++count;
+    return count;
+  };
+  e.warnings.assign(3, "blocks overlap");
+  EXPECT_EQ(bars(), 3);
+  e.warnings.assign(85, "blocks overlap");
+  EXPECT_EQ(bars(), 1);
+  EXPECT_NE(first_screen(e, {}, nullptr, "").find("<strong>85 warnings</strong>; the first: blocks overlap"),
+            std::string::npos);
+}
+
+// A path to 2 s that ends at 1.5 s under a tenth of the weight from the side.
+TEST(FirstScreen, APathThatEndsEarlySaysWhatItBore) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.last.frame.role = FrameRole::path;
+  e.last.frame.time = 1.5;
+  e.scene.analysis.path.end = 2.0;
+  e.summary.weight_N = 1e4;
+  e.acting.forces.resize(1);
+  e.last.loads = {{1, Vec3::Zero(), Vec3(600, 0, 0), 0}, {2, Vec3::Zero(), Vec3(0, 800, 0), 0}};
+  EXPECT_EQ(margin_answer(e).value, "not computed") << "it reached its end";
+  e.summary.status = Status::moving;
+  EXPECT_EQ(margin_answer(e).name, "End of the path");
+  EXPECT_EQ(margin_answer(e).value, "1.5 s of 2");
+  EXPECT_EQ(margin_answer(e).detail, "at the last equilibrium: horizontal loads of 1 kN, 0.1 of the weight");
+  e.last.frame.blocks.displacement[0] = Vec3(0.01, 0, 0);
+  EXPECT_TRUE(margin_answer(e).detail.ends_with("weight; support block 0 has moved by 10 mm"))
+      << margin_answer(e).detail;
+}
+
+// A motion that ends below the threshold of collapse has not fallen, whatever still moves.
+TEST(FirstScreen, AMotionThatGoesOnHasNotFallen) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.last.frame.role = FrameRole::step;
+  e.last.frame.time = 4.0;
+  e.last.frame.blocks.displacement[2] = Vec3(0.007, 0, 0);
+  e.summary.analysis = AnalysisType::dynamic;
+  e.summary.status = Status::moving;
+  e.summary.message = "largest speed 0.004 m/s > threshold 0.001 m/s at the end";
+  EXPECT_EQ(verdict_words(e).words, "It has not come to rest");
+  EXPECT_FALSE(verdict_words(e).good);
+  EXPECT_TRUE(
+      reason_for_verdict(e).starts_with("Within 4 s a block moves by 7 mm; a displacement above 500 mm "
+                                        "counts as collapse. At the end it is not "
+                                        "at rest: largest speed 0.004 m/s > threshold 0.001 m/s at the end."))
+      << reason_for_verdict(e);
+  EXPECT_EQ(margin_answer(e).value, "unknown");
+  e.summary.status = Status::collapsed;
+  EXPECT_EQ(verdict_words(e).words, "It falls");
 }
 
 // Readers of a screen hear the title first: a case without one lends the name of its file.

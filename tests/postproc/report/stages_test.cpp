@@ -73,6 +73,16 @@ TEST(Stages, TheMostDemandingStageSaysWhatMovesWithLess) {
   EXPECT_NE(c.figure->commands.find("\n1 6 \n"), std::string::npos) << "in kPa";
 }
 
+TEST(Stages, HaveACurveAlsoIfNoneNeedsMortar) {
+  const CsvFile stages = parse_csv(std::string(kConstruction) +
+                                       "0,1,4,124,equilibrium,1e-9,0,,1e-6,4e-5,\n"
+                                       "1,1,4,128,equilibrium,1e-9,0,,1e-6,4e-5,\n",
+                                   "construction.csv");
+  const StageReport c = report_stages(test::column_evaluation(0.6, 0.4), kFriction, stages, std::nullopt);
+  ASSERT_TRUE(c.figure);
+  EXPECT_TRUE(c.figure->caption.ends_with("(0: it needs none).")) << c.figure->caption;
+}
+
 TEST(Stages, TheFirstStageThatDoesNotStandSaysWhatMoves) {
   const CsvFile stages = parse_csv(std::string(kConstruction) +
                                        "0,1,4,124,equilibrium,1e-9,,,1e-6,4e-5,\n"

@@ -39,6 +39,16 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
 }
 
+// "moving" of a motion in time is no verdict, unlike that of statics.
+TEST(SweepTable, AMotionThatGoesOnHasNoVerdict) {
+  const ScratchFolder scratch;
+  scratch.write("a/results/summary.json", R"({"status": "moving", "max_speed_m_per_s": 0.004})");
+  scratch.write("b/results/summary.json", R"({"status": "moving"})");
+  const Table table = sweep_table({}, {{"a", "dome", {}}, {"b", "dome", {}}}, scratch.folder());
+  EXPECT_EQ(cell_of(table, 0, "status"), Table::Cell(std::string("not at rest")));
+  EXPECT_EQ(cell_of(table, 1, "status"), Table::Cell(std::string("moving")));
+}
+
 // Thrust, margin, crack and critical value, each with its unit; failed members in an amber banner, no link to
 // a report that does not exist, and the table for LaTeX.
 TEST(SweepTable, HasTheResultsOfTheMembers) {
