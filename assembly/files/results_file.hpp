@@ -20,7 +20,7 @@ class ResultsWriter {
   /// InputError if a frame is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
-  /// SystemError if the frame before was removed.
+  /// SystemError if the frame before was removed, or the earlier one whose turn it is.
   void write_frame(const Frame& frame);
   void write_text(const std::string& name, const std::string& text);     ///< run.yaml, ranges.csv
   void write_growing(const std::string& name, const std::string& text);  ///< path.csv
@@ -38,6 +38,7 @@ class ResultsWriter {
   std::string folder_;
   std::string assembly_hash_, case_hash_;
   std::vector<double> times_;
+  int checked_ = 0;  // the earlier frame that was looked for last
   std::vector<int> with_ties_;  // frames
   Growth collections_;
   std::map<std::string, std::string> text_files_;  // name to hash

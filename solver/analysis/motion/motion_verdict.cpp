@@ -63,9 +63,9 @@ void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, 
 std::vector<std::string> elastic_impacts(const Analysis& analysis, const RunProgress& progress) {
   if (progress.elastic_steps == 0) return {};
   return {fmt::format(
-      "in {} blocks met and bounced: their joints, elastic without damping, take {:.1e} s to stop them, "
-      "longer "
-      "than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with rigid joints "
+      "blocks met and bounced in {}: their joints, elastic without damping, take {:.1e} s to stop them, "
+      "longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with rigid "
+      "joints "
       "(compliance 0){}",
       counted(progress.elastic_steps, "step"), progress.elastic_impact, 2.0 * progress.elastic_impact,
       analysis.adaptive ? "" : " or a much longer `analysis.time_step`")};

@@ -229,7 +229,9 @@ std::string sliding_column(Status status, AnalysisType analysis) {
   }
   test::write_frames(frames, summary, &writer);
   writer.write_summary(summary);
-  const AnalyseRequest request{.run = {.scene = test::column_case(),
+  Case scene = test::column_case();
+  scene.analysis.thresholds.displacement = 0.5;
+  const AnalyseRequest request{.run = {.scene = scene,
                                        .assembly_path = folder + "/assembly.vtu",
                                        .results_folder = folder + "/results"},
                                .output_folder = folder + "/post",
