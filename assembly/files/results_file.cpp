@@ -212,8 +212,11 @@ void ResultsWriter::write_frame(const Frame& frame) {
     std::filesystem::remove(in_folder(folder_, "ties.pvd"));
   } else {
     check_frame_is_there(folder_, index - 1);
-    checked_ = (checked_ + 1) % index;  // one of all, so that the cost of a frame does not grow
-    check_frame_is_there(folder_, checked_);
+    // Not all, so that the cost of a frame does not grow; two, so that the turn of each comes again.
+    for (int turn = 0; turn < 2; ++turn) {
+      checked_ = (checked_ + 1) % index;
+      check_frame_is_there(folder_, checked_);
+    }
   }
   const RunOfFrame run{assembly_hash_, case_hash_};
   write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, run));

@@ -20,7 +20,7 @@ class ResultsWriter {
   /// InputError if a frame is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
-  /// SystemError if the frame before was removed, or the earlier one whose turn it is.
+  /// SystemError if the frame before was removed, or an earlier one whose turn it is.
   void write_frame(const Frame& frame);
   void write_text(const std::string& name, const std::string& text);     ///< run.yaml, ranges.csv
   void write_growing(const std::string& name, const std::string& text);  ///< path.csv
