@@ -38,7 +38,7 @@ class ResultsWriter {
   std::string folder_;
   std::string assembly_hash_, case_hash_;
   std::vector<double> times_;
-  int checked_ = 0;  // the earlier frame that was looked for last
+  int checked_ = 0;             // the earlier frame that was looked for last
   std::vector<int> with_ties_;  // frames
   Growth collections_;
   std::map<std::string, std::string> text_files_;  // name to hash
