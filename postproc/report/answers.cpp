@@ -125,10 +125,10 @@ bool is_limit(const Evaluation& e) {
 
 }  // namespace
 
-VerdictWords words_of_status(Status status, AnalysisType analysis) {
-  std::string words = words_of(status, analysis);
+VerdictWords words_of_run(const Summary& summary) {
+  std::string words = words_of(summary.status, summary.analysis);
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
-  return {words, stands(status)};
+  return {words, stands(summary.status)};
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
@@ -136,17 +136,18 @@ VerdictWords verdict_words(const Evaluation& e) {
     return {parts.contains("It falls") ? "It stands, except for what falls"
                                        : "It stands, except for what is undecided",
             false};
-  const AnalysisType analysis = e.summary.analysis;
-  if (!is_limit(e) || !e.summary.critical) return words_of_status(e.summary.status, analysis);
+  if (!is_limit(e) || !e.summary.critical) return words_of_run(e.summary);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
-  if (critical.parameter == "peak_stress") return words_of_status(e.summary.status, analysis);
+  if (critical.parameter == "peak_stress") return words_of_run(e.summary);
   if (!own) return {"Limit found", reached(e.summary.status)};  // which says nothing of the case
   const bool upwards = critical.stable < critical.moving;
   const bool proven = e.summary.friction_law == FrictionLaw::associated;
   const bool stands = upwards ? *own <= critical.stable : *own >= critical.stable;
   const bool moves = upwards ? *own >= critical.moving : *own <= critical.moving;
-  return words_of_status(stands ? Status::stable : moves ? motion(proven) : Status::bracketed, analysis);
+  Summary of_case = e.summary;
+  of_case.status = stands ? Status::stable : moves ? motion(proven) : Status::bracketed;
+  return words_of_run(of_case);
 }
 
 KeyNumber margin_answer(const Evaluation& e) {

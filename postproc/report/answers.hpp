@@ -16,8 +16,8 @@ struct VerdictWords {
   bool good = false;  ///< false: it falls, or nothing is decided
 };
 
-/// The words of a status.
-VerdictWords words_of_status(Status status, AnalysisType analysis);
+/// The words of the status of a run.
+VerdictWords words_of_run(const Summary& summary);
 
 /// The words for the structure under the loads of its case. Of a limit analysis: on which side of the limit
 /// the case lies.

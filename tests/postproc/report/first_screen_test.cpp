@@ -198,8 +198,10 @@ TEST(FirstScreen, SaysWhetherTheVerdictIsProven) {
                                             {Status::collapsed, "It falls", false},
                                             {Status::bracketed, "Undecided", false},
                                             {Status::unconverged, "Undecided", false}}) {
-    EXPECT_EQ(words_of_status(status, AnalysisType::static_).words, words);
-    EXPECT_EQ(words_of_status(status, AnalysisType::static_).good, good) << words;
+    Summary run;
+    run.status = status;
+    EXPECT_EQ(words_of_run(run).words, words);
+    EXPECT_EQ(words_of_run(run).good, good) << words;
   }
   Evaluation e = test::column_evaluation(0.6, 0.4);
   EXPECT_TRUE(certain_sentence(e).starts_with("Certain: forces")) << certain_sentence(e);
