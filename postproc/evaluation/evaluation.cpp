@@ -169,7 +169,7 @@ void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
   if (!e->summary.critical || e->times.size() < 2) return;
   try {
     Frame frame = results.read_frame(1);
-    if (is_plane(e->summary)) spread_across_plane(&frame.contacts);
+    if (e->scene.analysis.plane) spread_across_plane(&frame.contacts);
     if (frame.role == FrameRole::mechanism)
       e->gives_way = motion_of(frame, joint_wrenches(e->assembly, frame.contacts, e->shell));
   } catch (const InputError& error) {
@@ -295,7 +295,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
-  if (is_plane(e.summary)) spread_across_plane(&out.frame.contacts);
+  if (e.scene.analysis.plane) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
   out.poses.of_block = poses_of(e.assembly, out.frame);

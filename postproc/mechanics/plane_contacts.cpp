@@ -44,10 +44,6 @@ std::vector<double> widths_of(const ContactTable& c) {
 
 }  // namespace
 
-bool is_plane(const Summary& summary) {
-  return summary.free_blocks > 0 && summary.unknowns == 3 * summary.free_blocks;
-}
-
 void spread_across_plane(ContactTable* contacts) {
   ContactTable& c = *contacts;
   const std::vector<double> widths = widths_of(c);

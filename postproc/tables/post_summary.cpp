@@ -14,7 +14,6 @@
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/evaluation/thrust.hpp"
-#include "postproc/mechanics/plane_contacts.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
@@ -185,7 +184,7 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     *s->crack_length_m += crack.extent;
     raise(&s->widest_crack_m, crack.widest_gap);
   }
-  if (!is_plane(e.summary))  // where no couple turns about the force
+  if (!e.scene.analysis.plane)  // where no couple turns about the force
     for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);
   if (const auto thrust = outward_thrust(e); thrust && e.summary.weight_N > 0.0)
     s->thrust_over_weight = *thrust / e.summary.weight_N;
@@ -221,7 +220,7 @@ PostSummary post_summary(const Evaluation& e) {
   s.max_displacement_m = e.summary.max_displacement_m;
   s.compliance_per = to_string(e.scene.joints.compliance.per);
   s.points_per_base_joint = points_per_base_joint(e.last.joints);
-  if (is_plane(e.summary) && s.points_per_base_joint) *s.points_per_base_joint /= 2.0;  // spread over two
+  if (e.scene.analysis.plane && s.points_per_base_joint) *s.points_per_base_joint /= 2.0;  // spread over two
   s.ranges = e.summary.ranges;
   if (at_rest(e)) add_equilibrium(e, &s);
   return s;

@@ -43,17 +43,19 @@ Frame in_plane(const Assembly& a) {
   return frame;
 }
 
-Evaluation evaluated(const Frame& frame, int unknowns_per_block) {
+Evaluation evaluated(const Frame& frame, bool plane, int sectors = 1) {
   const Assembly a = test::column(3);
+  Case scene = test::column_case();
+  scene.analysis.plane = plane;
   Summary summary = test::column_summary(a);
-  summary.unknowns = unknowns_per_block * summary.free_blocks;
-  return test::evaluated(a, {frame}, summary, test::column_case(), test::fresh_folder("results"));
+  summary.unknowns = (plane ? 3 : 6) * summary.free_blocks / sectors;
+  return test::evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
 }
 
 // What follows from joints does not depend on whether they were solved in the plane.
 TEST(PlaneContacts, GiveTheJointsOfTheSameRunInSpace) {
   const Assembly a = test::column(3);
-  const Evaluation space = evaluated(in_space(a), 6), plane = evaluated(in_plane(a), 3);
+  const Evaluation space = evaluated(in_space(a), false), plane = evaluated(in_plane(a), true);
   ASSERT_EQ(plane.last.joints.wrenches.size(), 3u);
   for (size_t j = 0; j < 3; ++j) {
     const JointWrench &p = space.last.joints.wrenches[j], &q = plane.last.joints.wrenches[j];
@@ -68,8 +70,16 @@ TEST(PlaneContacts, GiveTheJointsOfTheSameRunInSpace) {
   EXPECT_NEAR(post_summary(plane).mean_kern_use.value(), 1.5, 1e-12);
 }
 
+// Two sectors in space leave three unknowns per block, as a run in the plane has.
+TEST(PlaneContacts, AreNotThoseOfTwoSectors) {
+  const Frame frame = in_space(test::column(3));
+  const Evaluation one = evaluated(frame, false), two = evaluated(frame, false, 2);
+  EXPECT_EQ(two.last.frame.contacts.size(), one.last.frame.contacts.size());
+  EXPECT_TRUE(post_summary(two).largest_couple_length_m.has_value());
+}
+
 TEST(PlaneContacts, HaveNoCouple) {
-  const Evaluation plane = evaluated(in_plane(test::column(3)), 3);
+  const Evaluation plane = evaluated(in_plane(test::column(3)), true);
   EXPECT_FALSE(post_summary(plane).largest_couple_length_m.has_value());
   EXPECT_EQ(post_summary(plane).points_per_base_joint.value(), 2.0);
 }
