@@ -43,10 +43,6 @@ RunForces read_forces(RunFiles& run) {
     for (size_t i = 0; i < line.rows.size(); ++i)
       forces.thrust[name][static_cast<int>(line.number(i, bed))] = line.number(i, position);
   }
-  if (!run.table_names("rings").empty()) {
-    const CsvFile& rings = run.table("rings");
-    if (!rings.rows.empty()) forces.base_thrust = rings.number(0, rings.column("radial_thrust_N"));
-  }
   return forces;
 }
 
@@ -68,7 +64,6 @@ RunForces extrapolated(const RunForces& fine, const RunForces& coarse) {
       for (auto& [bed, position] : line)
         if (const auto same = other->second.find(bed); same != other->second.end())
           position = 2.0 * position - same->second;
-  out.base_thrust = 2.0 * fine.base_thrust - coarse.base_thrust;
   return out;
 }
 
@@ -99,8 +94,6 @@ ForceErrors compare_forces(const RunForces& reference, const RunForces& run) {
       if (const auto same = other->second.find(bed); same != other->second.end())
         errors.thrust_line = std::max(errors.thrust_line, std::abs(same->second - position));
   }
-  if (reference.base_thrust != 0.0)
-    errors.base_thrust = std::abs(run.base_thrust / reference.base_thrust - 1.0);
   return errors;
 }
 

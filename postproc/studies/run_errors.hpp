@@ -16,7 +16,6 @@ struct RunForces {
   double mean_area = 0.0;  ///< m2, of these joints
   /// Name of the meridian's table -> bed -> position of the thrust line in the thickness.
   std::map<std::string, std::map<int, double>> thrust;
-  double base_thrust = 0.0;  ///< N, outward, sum over the base; 0 if there are no rings
 };
 RunForces read_forces(RunFiles& run);
 
@@ -35,7 +34,6 @@ struct ForceErrors {
   double wrench_rms = 0.0;
   double wrench_worst = 0.0;  ///< largest e_j / root mean square of w_j
   double thrust_line = 0.0;   ///< largest shift of a point of a thrust line / thickness
-  double base_thrust = 0.0;   ///< relative difference; 0 if the reference has none
 };
 ForceErrors compare_forces(const RunForces& reference, const RunForces& run);
 

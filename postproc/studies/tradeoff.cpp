@@ -123,7 +123,6 @@ Table tradeoff_table(const std::vector<TradeoffRow>& rows) {
                {"wrench_error_rms", "", "root mean square error of the bed-joint wrenches, relative"},
                {"wrench_error_worst", "", "error of the worst bed joint over the root mean square wrench"},
                {"thrust_line_error", "", "largest shift of a thrust line over the thickness"},
-               {"base_thrust_error", "", "relative error of the outward base thrust"},
                {"critical_value_error", "", "relative error of the critical value, limit analyses"}};
   for (const TradeoffRow& row : rows) {
     std::string settings;
@@ -134,25 +133,13 @@ Table tradeoff_table(const std::vector<TradeoffRow>& rows) {
     const auto force_error = [&](double value) {
       return row.finished() && !row.critical_error ? value : none;
     };
-    t.rows.push_back({row.point.knob,
-                      row.point.name,
-                      row.point.reference_text(),
-                      settings,
+    t.rows.push_back({row.point.knob, row.point.name, row.point.reference_text(), settings,
                       row.finished() ? to_string(s.status) : std::string("not run"),
-                      error(s.cpu_time_seconds),
-                      error(s.wall_time_seconds),
-                      s.threads,
-                      error(static_cast<double>(s.peak_memory_bytes) / 1e6),
-                      s.contacts,
-                      s.steps,
-                      s.iterations,
-                      error(s.accuracy.asked),
-                      error(s.accuracy.reached),
-                      s.certified_force_error.value.value_or(none),
-                      force_error(row.errors.wrench_rms),
-                      force_error(row.errors.wrench_worst),
-                      force_error(row.errors.thrust_line),
-                      force_error(row.errors.base_thrust),
+                      error(s.cpu_time_seconds), error(s.wall_time_seconds), s.threads,
+                      error(static_cast<double>(s.peak_memory_bytes) / 1e6), s.contacts, s.steps,
+                      s.iterations, error(s.accuracy.asked), error(s.accuracy.reached),
+                      s.certified_force_error.value.value_or(none), force_error(row.errors.wrench_rms),
+                      force_error(row.errors.wrench_worst), force_error(row.errors.thrust_line),
                       row.critical_error.value_or(none)});
   }
   return t;

@@ -73,8 +73,8 @@ std::string knob_text(const std::vector<TradeoffRow>& all, const std::string& kn
   if (!worst.critical_error)
     text += fmt::format(
         "The largest error of a single joint is {:.1e}, in {}; the thrust lines of this run shift by up to "
-        "{:.1e} of the thickness, its base thrust changes by {:.1e}.",
-        worst.errors.wrench_worst, worst.point.name, worst.errors.thrust_line, worst.errors.base_thrust);
+        "{:.1e} of the thickness.",
+        worst.errors.wrench_worst, worst.point.name, worst.errors.thrust_line);
   if (!unreached.empty()) text += " Requested accuracy not reached: " + listed(unreached) + ".";
   return text;
 }

@@ -92,7 +92,6 @@ RunForces two_joints() {
   forces.beds[{0, 1, "base"}] = {Vec3::Zero(), Vec3(0, 0, 300), Vec3::Zero()};
   forces.beds[{1, 2, "bed"}] = {Vec3(0, 0, 1), Vec3(0, 0, 100), Vec3::Zero()};
   forces.thrust["thrust_arch"] = {{0, 0.5}, {1, 0.25}};
-  forces.base_thrust = 50.0;
   return forces;
 }
 
@@ -104,7 +103,6 @@ TEST(ForceErrors, AreZeroForTheSameRunWithMomentsAboutOtherPoints) {
   EXPECT_NEAR(errors.wrench_rms, 0.0, 1e-15);
   EXPECT_NEAR(errors.wrench_worst, 0.0, 1e-15);
   EXPECT_EQ(errors.thrust_line, 0.0);
-  EXPECT_EQ(errors.base_thrust, 0.0);
 }
 
 // A force of 100 N that acts 0.6 m away is a moment of 60 N m: 60 / sqrt(4 m2) = 30 N. Root mean square of
@@ -114,13 +112,11 @@ TEST(ForceErrors, ConvertMomentsToForcesByTheSideOfTheJoint) {
   RunForces run = reference;
   run.beds[{1, 2, "bed"}].point.x() += 0.6;
   run.thrust["thrust_arch"][1] = 0.35;
-  run.base_thrust = 45.0;
   const ForceErrors errors = compare_forces(reference, run);
   const double size = std::sqrt(300.0 * 300 + 100 * 100);
   EXPECT_NEAR(errors.wrench_rms, 30.0 / size, 1e-12);
   EXPECT_NEAR(errors.wrench_worst, 30.0 / (size / std::sqrt(2.0)), 1e-12);
   EXPECT_NEAR(errors.thrust_line, 0.1, 1e-12);
-  EXPECT_NEAR(errors.base_thrust, 0.1, 1e-12);
 }
 
 // Forces F + a h with steps h and 2 h: the extrapolation gives F, and the error of the run with step h is a
@@ -133,7 +129,6 @@ TEST(ForceErrors, ExtrapolationRemovesAnErrorOfFirstOrder) {
     for (auto& [id, wrench] : run.beds) wrench.force.z() += 10.0 * h;
     run.beds[{2, 3, "bed"}] = {Vec3(0, 0, 2), Vec3(0, 0, h), Vec3(h, 0, 0)};
     run.thrust["thrust_arch"][1] += 0.01 * h;
-    run.base_thrust += h;
     for (auto& [id, wrench] : run.beds) wrench = moved_to(wrench, {h, 0, 0});
     return run;
   };
@@ -141,7 +136,6 @@ TEST(ForceErrors, ExtrapolationRemovesAnErrorOfFirstOrder) {
   const ForceErrors none = compare_forces(exact, reference);
   EXPECT_NEAR(none.wrench_rms, 0.0, 1e-14);
   EXPECT_NEAR(none.thrust_line, 0.0, 1e-14);
-  EXPECT_NEAR(none.base_thrust, 0.0, 1e-14);
   const double fine = compare_forces(reference, with_step(1.0)).wrench_rms;
   EXPECT_NEAR(compare_forces(reference, with_step(2.0)).wrench_rms, 2.0 * fine, 1e-14);
   EXPECT_GT(fine, 0.01);
