@@ -9,7 +9,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/files/number_text.hpp"
-#include "assembly/model/status.hpp"
+#include "assembly/model/ending.hpp"
 #include "postproc/studies/saltelli.hpp"
 #include "postproc/studies/sweep.hpp"
 
@@ -23,14 +23,6 @@ size_t member_column(const Table& members, const std::string& key) {
   size_t column = 0;
   while (members.columns[column].key != key) ++column;
   return column;
-}
-
-int verdict_of(const std::string& status) {
-  if (stands(status)) return 0;
-  return status == to_string(Status::moving) || status == to_string(Status::moving_unproven) ||
-                 status == to_string(Status::collapsed)
-             ? 1
-             : -1;
 }
 
 std::vector<double> column_of_numbers(const Table& table, size_t column) {
@@ -189,7 +181,10 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
   out.members.name = ensemble.name;
   out.members.title = "The members of the ensemble";
   const size_t status = member_column(out.members, "status");
-  for (const auto& row : out.members.rows) out.falls.push_back(verdict_of(to_display(row[status])));
+  for (const auto& row : out.members.rows) {
+    const std::string ending = to_display(row[status]);
+    out.falls.push_back(stands(ending) ? 0 : falls(ending) ? 1 : -1);
+  }
   return out;
 }
 

@@ -12,7 +12,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/markup.hpp"
 #include "assembly/files/number_text.hpp"
-#include "assembly/model/status.hpp"
+#include "assembly/model/ending.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 
@@ -94,10 +94,6 @@ std::string governing_member(const std::vector<std::string>& keys, const Table& 
 }
 
 namespace {
-
-bool falls(const std::string& status) {
-  return status.starts_with("moving") || status == "collapsed";
-}
 
 /// Where one swept number changes the verdict: "It falls at joints.friction 0.06 to 0.08, it stands at 0.09
 /// to 0.4."; "" for several keys, for texts, for limits, whose members have no verdict of their own, and
