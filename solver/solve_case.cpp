@@ -27,9 +27,8 @@
 #include "solver/analysis/record/record.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
+#include "solver/dynamics/joints_on_supports.hpp"
 #include "solver/dynamics/scene_options.hpp"
-#include "solver/dynamics/soft_joints.hpp"
-#include "solver/dynamics/weak_joints.hpp"
 #include "solver/explain.hpp"
 #include "solver/runtime/checkpoint.hpp"
 #include "solver/runtime/interruption.hpp"
@@ -269,8 +268,7 @@ ExitCode solve_case(SolveRequest request) {
       make_sinks(request, checkpoint_path, stop, lock, &writer, &run, &progress, &last_line);
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
   sinks.as_built = [&](const ContactSet& contacts) {
-    warnings.add(soft_joints(request.scene, assembly, contacts));
-    warnings.add(weak_joints(request.scene, assembly, contacts));
+    warnings.add(joint_warnings(request.scene, assembly, contacts));
     write_patches(patches_path, contacts, assembly_hash);
   };
   const IterationLog iterations(sinks.log);

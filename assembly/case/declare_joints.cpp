@@ -31,7 +31,7 @@ void expect_strength(const Section& s, const char* key, double strength) {
               "too many digits? Stone carries up to 3e8 Pa"});
 }
 
-/// Joints that are too soft are found by what they do (solver/dynamics/soft_joints.hpp). Zero: rigid.
+/// Joints that are too soft are found by what they do (solver/dynamics/joints_on_supports.hpp). Zero: rigid.
 void expect_compliance(const Section& s, const std::string& key, double compliance, Compliance::Per per) {
   if (compliance == 0.0) return;
   const bool area = per == Compliance::Per::area;

@@ -12,8 +12,8 @@
 #include "generators/generate.hpp"
 #include "solver/collision/contact_detector.hpp"
 #include "solver/collision/geometry_warnings.hpp"
+#include "solver/dynamics/joints_on_supports.hpp"
 #include "solver/dynamics/scene_options.hpp"
-#include "solver/dynamics/soft_joints.hpp"
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola::warnings_test {
@@ -122,8 +122,8 @@ std::vector<std::string> all_warnings(const std::string& path,
   };
   add(assembly.block_warnings);
   add(geometry_warnings(assembly, detection_options(scene)));
-  add(soft_joints(scene, assembly,
-                  ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly))));
+  add(joint_warnings(scene, assembly,
+                     ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly))));
   return warnings;
 }
 

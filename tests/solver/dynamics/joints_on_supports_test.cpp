@@ -1,17 +1,15 @@
-#include "solver/dynamics/soft_joints.hpp"
+#include "solver/dynamics/joints_on_supports.hpp"
 
 #include <gtest/gtest.h>
 
-#include "solver/collision/contact_detector.hpp"
-#include "solver/dynamics/scene_options.hpp"
-#include "tests/solver/scenes.hpp"
+#include "tests/solver/motion_scenes.hpp"
 
-namespace cupola::soft_joints_test {
+namespace cupola::joints_on_supports_test {
 namespace {
 
 std::vector<std::string> warnings_of(const Case& scene, const Assembly& assembly) {
-  return soft_joints(scene, assembly,
-                     ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
+  return joint_warnings(scene, assembly,
+                        ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
 }
 
 Case per_area(double normal) {
@@ -60,5 +58,22 @@ TEST(SoftJoints, AreNotTheDefaults) {
   }
 }
 
+// A cube of 1 m and 1000 kg/m3 presses on its bed with 9810 Pa.
+TEST(WeakJoints, AreReportedIfTheyCannotCarryTheWeight) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  for (const double compliance : {1e-10, 0.0}) {
+    Case scene = per_area(compliance);
+    EXPECT_TRUE(warnings_of(scene, assembly).empty()) << "dry";
+    scene.joints.strength.compression = 9900.0;
+    EXPECT_TRUE(warnings_of(scene, assembly).empty());
+    scene.joints.strength.compression = 9700.0;
+    const std::vector<std::string> found = warnings_of(scene, assembly);
+    ASSERT_EQ(found.size(), 1u) << compliance;
+    EXPECT_NE(found[0].find("9.81e+03 Pa on average, more than the compressive strength of 9.7e+03 Pa"),
+              std::string::npos)
+        << found[0];
+  }
+}
+
 }  // namespace
-}  // namespace cupola::soft_joints_test
+}  // namespace cupola::joints_on_supports_test

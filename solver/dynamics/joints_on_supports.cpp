@@ -1,0 +1,107 @@
+#include "solver/dynamics/joints_on_supports.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "assembly/model/applied_loads.hpp"
+#include "solver/dynamics/model.hpp"
+
+namespace cupola {
+namespace {
+
+/// Number of joints that lie one above the other: the rings, or the height over the mean size of a block.
+double joint_levels(const Assembly& assembly, double height) {
+  if (assembly.num_rings > 0) return assembly.num_rings;
+  double volume = 0.0;
+  int free_blocks = 0;
+  for (const Block& block : assembly.blocks) {
+    if (block.fixed) continue;
+    volume += block.volume;
+    ++free_blocks;
+  }
+  return std::max(1.0, height / std::cbrt(volume / std::max(1, free_blocks)));
+}
+
+double height_of_free_blocks(const Assembly& assembly) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) {
+        low = std::min(low, assembly.vertices[v].z());
+        high = std::max(high, assembly.vertices[v].z());
+      }
+  }
+  return high - low;
+}
+
+/// The joints between fixed and free blocks, together.
+struct OnSupports {
+  double stiffness = 0.0;    ///< N/m
+  bool rigid = false;        ///< one of them is
+  double area = 0.0;         ///< m2
+  double capacity = 0.0;     ///< N, in compression
+  Vec3 load = Vec3::Zero();  ///< N, weight of the free blocks and forces on them
+};
+
+OnSupports joints_on_supports(const Case& scene, const Assembly& assembly, const ContactSet& contacts) {
+  const Model model = make_model(scene, assembly);
+  OnSupports sum;
+  for (const Contact& contact : contacts.points) {
+    if (assembly.blocks[contact.block_a].fixed == assembly.blocks[contact.block_b].fixed) continue;
+    const JointLaw law = joint_law(model, contacts, contact, 0.0);
+    if (law.compliance_normal == 0.0)
+      sum.rigid = true;
+    else
+      sum.stiffness += 1.0 / law.compliance_normal;
+    sum.area += contact.area;
+    sum.capacity += law.strength.compression;
+  }
+  if (model.free_weight > 0.0) sum.load = model.free_weight * scene.loads.gravity.normalized();
+  for (const PointForce& force : applied_loads(scene.loads, assembly))
+    if (!assembly.blocks[force.block].fixed) sum.load += force.force;
+  return sum;
+}
+
+std::string soft_text(const OnSupports& joints, const Assembly& assembly, const Compliance& compliance) {
+  constexpr double kMostSinking = 0.01;  // of the height
+  if (joints.rigid || joints.stiffness == 0.0) return "";
+  const double height = height_of_free_blocks(assembly);
+  const double sinking = joints.load.norm() / joints.stiffness * 0.5 * (joint_levels(assembly, height) + 1.0);
+  if (!(sinking > kMostSinking * height)) return "";
+  const std::string sinks = fmt::format("lets the model sink by about {:.2g} m, {:.2g} % of its height",
+                                        sinking, 100.0 * sinking / height);
+  if (compliance.relative)
+    return fmt::format("joints.compliance.relative = {:g} {}; a smaller value is stiffer",
+                       *compliance.relative, sinks);
+  const bool area = compliance.per == Compliance::Per::area;
+  return fmt::format(
+      "joints.compliance.normal = {:g} {} {}; a stiffness instead of a compliance, or per {} "
+      "meant? Without the key it is {:g} {}",
+      compliance.normal, area ? "m3/N" : "m/N", sinks, area ? "point" : "area",
+      Compliance::default_per(compliance.per).normal, area ? "m3/N" : "m/N");
+}
+
+std::string weak_text(const OnSupports& joints) {
+  if (joints.area == 0.0 || joints.load.norm() <= joints.capacity) return "";
+  return fmt::format(
+      "the loads press on the supports with {:.3g} Pa on average, more than the compressive strength of "
+      "{:.3g} Pa",
+      joints.load.norm() / joints.area, joints.capacity / joints.area);
+}
+
+}  // namespace
+
+std::vector<std::string> joint_warnings(const Case& scene, const Assembly& assembly,
+                                        const ContactSet& contacts) {
+  const OnSupports joints = joints_on_supports(scene, assembly, contacts);
+  std::vector<std::string> warnings{soft_text(joints, assembly, scene.joints.compliance)};
+  if (scene.joints.have_strength()) warnings.push_back(weak_text(joints));
+  std::erase(warnings, "");
+  return warnings;
+}
+
+}  // namespace cupola
