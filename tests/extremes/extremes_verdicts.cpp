@@ -3,7 +3,6 @@
 //
 //   extremes_verdicts COUNT FIRST_SEED      prints a table of the methods
 //   extremes_verdicts towers                prints a table of towers of cubes, whose limit is known
-//   extremes_verdicts scaled                prints a table of models scaled in length and weight
 //
 // Fails if two verdicts contradict each other, or if more static analyses than largest_undecided() are
 // undecided.
@@ -23,7 +22,6 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "tests/extremes/limit_models.hpp"
-#include "tests/extremes/scaling_table.hpp"
 #include "tests/extremes/tower_table.hpp"
 
 namespace {
@@ -191,8 +189,7 @@ ExitCode run(int count, std::uint64_t first) {
 int main(int argc, char** argv) {
   return run_program("extremes_verdicts", [&] {
     if (argc == 2 && std::string(argv[1]) == "towers") return print_towers();
-    if (argc == 2 && std::string(argv[1]) == "scaled") return print_scaling();
-    if (argc != 3) throw InputError("usage: extremes_verdicts COUNT FIRST_SEED, or towers, or scaled");
+    if (argc != 3) throw InputError("usage: extremes_verdicts COUNT FIRST_SEED, or towers");
     return run(std::stoi(argv[1]), std::stoull(argv[2]));
   });
 }
