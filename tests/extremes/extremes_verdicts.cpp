@@ -1,8 +1,7 @@
 // Cross-checks of verdicts on random models: static analysis, range, bisection and direct limit answer the
 // same question.
 //
-//   extremes_verdicts COUNT FIRST_SEED      prints a table of the methods
-//   extremes_verdicts towers                prints a table of towers of cubes, whose limit is known
+//   extremes_verdicts COUNT FIRST_SEED
 //
 // Fails if two verdicts contradict each other, or if more static analyses than largest_undecided() are
 // undecided.
@@ -22,7 +21,6 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "tests/extremes/limit_models.hpp"
-#include "tests/extremes/tower_table.hpp"
 
 namespace {
 
@@ -188,8 +186,7 @@ ExitCode run(int count, std::uint64_t first) {
 
 int main(int argc, char** argv) {
   return run_program("extremes_verdicts", [&] {
-    if (argc == 2 && std::string(argv[1]) == "towers") return print_towers();
-    if (argc != 3) throw InputError("usage: extremes_verdicts COUNT FIRST_SEED, or towers");
+    if (argc != 3) throw InputError("usage: extremes_verdicts COUNT FIRST_SEED");
     return run(std::stoi(argv[1]), std::stoull(argv[2]));
   });
 }
