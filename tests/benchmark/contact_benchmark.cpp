@@ -10,6 +10,7 @@
 //   contact_benchmark threads     assembly and factor on two threads, against CG
 
 #include <cmath>
+#include <map>
 #include <string>
 
 #include <fmt/format.h>
@@ -26,6 +27,7 @@
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
 #include "solver/runtime/threads.hpp"
+#include "tests/arguments.hpp"
 #include "tests/benchmark/dome_problem.hpp"
 #include "tests/solver/contact/contact_scenes.hpp"
 
@@ -366,24 +368,17 @@ void threads() {
 }  // namespace cupola
 
 int main(int argc, char** argv) {
-  cupola::keep_freed_memory();
-  const std::string table = argc == 2 ? argv[1] : "";
-  if (table == "methods")
-    cupola::compare_methods();
-  else if (table == "gaps")
-    cupola::random_gaps();
-  else if (table == "stepping")
-    cupola::time_stepping();
-  else if (table == "motion")
-    cupola::whole_steps();
-  else if (table == "coulomb")
-    cupola::coulomb();
-  else if (table == "scale")
-    cupola::scale();
-  else if (table == "threads")
-    cupola::threads();
-  else
-    fmt::print(stderr,
-               "usage: contact_benchmark methods | gaps | stepping | motion | coulomb | scale | threads\n");
-  return table.empty();
+  using namespace cupola;
+  return run_program("contact_benchmark", [&] {
+    const std::string usage =
+        "contact_benchmark methods | gaps | stepping | motion | coulomb | scale | threads";
+    const std::map<std::string, void (*)()> tables{{"methods", compare_methods}, {"gaps", random_gaps},
+                                                   {"stepping", time_stepping},  {"motion", whole_steps},
+                                                   {"coulomb", coulomb},         {"scale", scale},
+                                                   {"threads", threads}};
+    const auto table = tables.find(read_arguments(argc, argv, 1, 1, usage).front());
+    if (table == tables.end()) throw InputError("usage: " + usage);
+    table->second();
+    return ExitCode::done;
+  });
 }

@@ -95,5 +95,6 @@ BENCHMARK(WallFromScratch)->Arg(71)->Arg(316)->Unit(benchmark::kMillisecond);  /
 int main(int argc, char** argv) {
   cupola::keep_freed_memory();
   benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -15,6 +15,7 @@
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
 #include "solver/explain.hpp"
+#include "tests/arguments.hpp"
 #include "tests/solver/scenes.hpp"
 
 namespace {
@@ -102,10 +103,7 @@ double seconds_per_step(bool sleep) {
          10.0;
 }
 
-}  // namespace
-
-int main() {
-  keep_freed_memory();
+void print_table() {
   fmt::print("scene,feature,unknowns with / without,contacts,factor entries,CPU s,ratio\n");
   const std::string dome = "dome_circular";
   const Measured plain = measure(dome, {});
@@ -125,5 +123,14 @@ int main() {
   const double awake = seconds_per_step(false), asleep = seconds_per_step(true);
   fmt::print("1000 blocks at rest,sleep (per step),,,,{:.2e} / {:.2e},{:.4f}\n", asleep, awake,
              asleep / awake);
-  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("feature_benchmark", [&] {
+    read_arguments(argc, argv, 0, 0, "feature_benchmark");
+    print_table();
+    return ExitCode::done;
+  });
 }

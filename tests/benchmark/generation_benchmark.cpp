@@ -74,5 +74,6 @@ BENCHMARK(SplitCrossByNef)->Unit(benchmark::kMicrosecond);
 int main(int argc, char** argv) {
   cupola::keep_freed_memory();
   benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/program/program.hpp"
+#include "tests/arguments.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace {
@@ -66,9 +68,7 @@ double rocking_error(TimeIntegrator integrator, double h) {
   return rocking_angle(integrator, h) / angle - 1.0;
 }
 
-}  // namespace
-
-int main() {
+void print_table() {
   fmt::print("scene,integrator,step ms,error\n");
   const std::pair<const char*, double (*)(TimeIntegrator, double)> scenes[] = {
       {"cube on springs", spring_error}, {"sliding block", sliding_error}, {"rocking block", rocking_error}};
@@ -77,4 +77,14 @@ int main() {
       for (const double h : kSteps)
         fmt::print("{},{},{:g},{:.3e}\n", name, to_string(integrator), 1e3 * h,
                    std::abs(error(integrator, h)));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("integrator_benchmark", [&] {
+    read_arguments(argc, argv, 0, 0, "integrator_benchmark");
+    print_table();
+    return ExitCode::done;
+  });
 }

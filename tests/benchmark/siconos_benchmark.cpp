@@ -44,6 +44,7 @@ extern "C" {
 #include "assembly/program/program.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
+#include "tests/arguments.hpp"
 #include "tests/benchmark/dome_problem.hpp"
 #include "tests/reference/delassus.hpp"
 
@@ -355,17 +356,22 @@ void compare(const std::string& name, const DomeProblem& dome, double tolerance,
 }  // namespace cupola
 
 int main(int argc, char** argv) {
-  cupola::keep_freed_memory();
-  const double tolerance = argc > 1 ? std::atof(argv[1]) : 1e-8;
-  const double cap = argc > 2 ? std::atof(argv[2]) : 120.0;
-  cupola::DomeProblem dome;
-  dome.slices_per_block = 2;
-  const std::string only = argc > 3 ? argv[3] : "";
-  dome.h = 1.0;
-  fmt::print("problem,tolerance,solver,settings,CPU s,iterations,error,force,ratio\n");
-  if (only != "rigid") cupola::compare("static-elastic dome, kappa 1e-8", dome, tolerance, cap);
-  dome.h = 0.01;
-  dome.compliance = 0.0;
-  if (only != "static") cupola::compare("rigid dome, h = 0.01 s", dome, tolerance, cap);
-  return 0;
+  using namespace cupola;
+  return run_program("siconos_benchmark", [&] {
+    const std::string usage = "siconos_benchmark [tolerance] [CPU seconds per run] [static|rigid]";
+    const std::vector<std::string> arguments = read_arguments(argc, argv, 0, 3, usage);
+    const double tolerance = arguments.size() > 0 ? std::stod(arguments[0]) : 1e-8;
+    const double cap = arguments.size() > 1 ? std::stod(arguments[1]) : 120.0;
+    const std::string only = arguments.size() > 2 ? arguments[2] : "";
+    if (!only.empty() && only != "static" && only != "rigid") throw InputError("usage: " + usage);
+    DomeProblem dome;
+    dome.slices_per_block = 2;
+    dome.h = 1.0;
+    fmt::print("problem,tolerance,solver,settings,CPU s,iterations,error,force,ratio\n");
+    if (only != "rigid") compare("static-elastic dome, kappa 1e-8", dome, tolerance, cap);
+    dome.h = 0.01;
+    dome.compliance = 0.0;
+    if (only != "static") compare("rigid dome, h = 0.01 s", dome, tolerance, cap);
+    return ExitCode::done;
+  });
 }

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/program/program.hpp"
+#include "tests/arguments.hpp"
 #include "tests/extremes/random_scene.hpp"
 
 namespace {
@@ -53,7 +53,7 @@ ExitCode search(double seconds, std::uint64_t first) {
 
 int main(int argc, char** argv) {
   return run_program("extremes_search", [&] {
-    if (argc != 3) throw InputError("usage: extremes_search SECONDS FIRST_SEED");
-    return search(std::stod(argv[1]), std::stoull(argv[2]));
+    const auto arguments = read_arguments(argc, argv, 2, 2, "extremes_search SECONDS FIRST_SEED");
+    return search(std::stod(arguments[0]), std::stoull(arguments[1]));
   });
 }

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/program.hpp"
+#include "tests/arguments.hpp"
 #include "tests/extremes/extreme_scene.hpp"
 #include "tests/extremes/known_verdicts.hpp"
 
@@ -81,7 +81,7 @@ ExitCode write_table(const std::string& folder, const std::string& text) {
 
 int main(int argc, char** argv) {
   return run_program("extremes_table", [&] {
-    if (argc < 2 || argc > 3) throw InputError("usage: extremes_table FOLDER [TEXT]");
-    return write_table(argv[1], argc == 3 ? argv[2] : "");
+    const auto arguments = read_arguments(argc, argv, 1, 2, "extremes_table FOLDER [TEXT]");
+    return write_table(arguments[0], arguments.size() > 1 ? arguments[1] : "");
   });
 }

@@ -14,12 +14,12 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/program/program.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/dynamics/scene_options.hpp"
+#include "tests/arguments.hpp"
 #include "tests/extremes/limit_models.hpp"
 
 namespace {
@@ -186,7 +186,7 @@ ExitCode run(int count, std::uint64_t first) {
 
 int main(int argc, char** argv) {
   return run_program("extremes_verdicts", [&] {
-    if (argc != 3) throw InputError("usage: extremes_verdicts COUNT FIRST_SEED");
-    return run(std::stoi(argv[1]), std::stoull(argv[2]));
+    const auto arguments = read_arguments(argc, argv, 2, 2, "extremes_verdicts COUNT FIRST_SEED");
+    return run(std::stoi(arguments[0]), std::stoull(arguments[1]));
   });
 }

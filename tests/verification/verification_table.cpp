@@ -16,6 +16,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/program.hpp"
+#include "tests/arguments.hpp"
 #include "tests/verification/document.hpp"
 #include "tests/verification/row_processes.hpp"
 #include "tests/verification/verification_row.hpp"
@@ -204,11 +205,9 @@ ExitCode make_manual(bool quick, const std::string& folder, const std::string& p
 
 int main(int argc, char** argv) {
   return cupola::run_program("verification_table", [&] {
-    std::vector<std::string> arguments(argv + 1, argv + argc);
-    const bool quick = !arguments.empty() && arguments.front() == "--quick";
-    if (quick) arguments.erase(arguments.begin());
-    if (arguments.empty() || arguments.size() > (quick ? 1u : 2u))
-      throw cupola::InputError("usage: verification_table [--quick] FOLDER [PAGE.md]");
+    const bool quick = argc > 1 && std::string(argv[1]) == "--quick";
+    const auto arguments = cupola::read_arguments(argc - quick, argv + quick, 1, quick ? 1 : 2,
+                                                  "verification_table [--quick] FOLDER [PAGE.md]");
     return cupola::verification::make_manual(quick, arguments[0], arguments.size() > 1 ? arguments[1] : "");
   });
 }
