@@ -329,7 +329,6 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   Frame shown = evaluated_frame(results, &e);
   e.last.frame.role = shown.role;  // at_rest() asks for it
   add_status_warnings(&e);
-  for (const std::string& doubt : doubts) e.warnings.push_back(doubt);
   if (e.summary.geometry_hash != scene.geometry_hash || e.assembly.geometry_hash != scene.geometry_hash)
     e.warnings.push_back(
         "the geometry of the case has changed since the assembly was generated or solved: generate and solve "
@@ -375,6 +374,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
   if (e.assembly.members.empty() && !scene.geometry.imported && !scene.geometry.window)  // one bond
     e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), last_member(scene.geometry).bond);
+  e.warnings.insert(e.warnings.end(), doubts.begin(), doubts.end());
   return e;
 }
 

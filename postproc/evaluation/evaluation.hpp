@@ -91,7 +91,7 @@ struct Evaluation {
   std::vector<PlaneCut> planes;
   std::optional<RibRatio> rib_over_mid_sail;  ///< of a whole vault with sails, of one member and bond
   std::optional<int> lost_joints;             ///< loaded in the first frame, gone in the last; none: unknown
-  std::vector<std::string> warnings;          ///< what the reader must know before using the numbers
+  std::vector<std::string> warnings;          ///< of the results, then the doubts about case and blocks
   std::vector<std::string> unreadable;        ///< parts of the results that are missing or damaged
 };
 

@@ -13,6 +13,7 @@
 #include "postproc/report/html.hpp"
 #include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
+#include "postproc/report/warnings.hpp"
 #include "postproc/report/worst_joints.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/range_values.hpp"
@@ -41,22 +42,6 @@ KeyNumber range_number_of(const ForceRange& range) {
           fmt::format("{} to {}{}", end(range.min, least(range)), end(range.max, greatest(range)),
                       range_unit(range).after_blank()),
           "certain for every history" + chosen};
-}
-
-/// A bar for each of a few warnings; of more, one that opens.
-std::string warnings_html(const std::vector<std::string>& warnings) {
-  constexpr size_t kMostBars = 3;
-  std::string out;
-  if (warnings.size() <= kMostBars) {
-    for (const std::string& warning : warnings)
-      out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
-    return out;
-  }
-  for (const std::string& warning : warnings) out += "<li>" + markup_text(warning) + "</li>\n";
-  return fmt::format(
-      "<details class=\"warning\"><summary><strong>{} warnings</strong>; the first: {}</summary>\n"
-      "<ul>\n{}</ul></details>\n",
-      warnings.size(), markup_text(warnings.front()), out);
 }
 
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {

@@ -229,24 +229,6 @@ TEST(FirstScreen, TheLargestDisplacementNamesSupportsOnlyIfTheyMove) {
             "The largest displacement of a block is 20 mm, the motion of the supports included.");
 }
 
-TEST(FirstScreen, ManyWarningsAreOneLineThatOpens) {
-  Evaluation e = test::column_evaluation(0.6, 0.4);
-  const auto bars = [&e] {
-    const std::string html = first_screen(e, {}, nullptr, "");
-    int count = 0;
-    for (size_t at = html.find("class=\"warning\""); at != std::string::npos;
-         at = html.find("class=\"warning\"", at + 1))
-      ++count;
-    return count;
-  };
-  e.warnings.assign(3, "blocks overlap");
-  EXPECT_EQ(bars(), 3);
-  e.warnings.assign(85, "blocks overlap");
-  EXPECT_EQ(bars(), 1);
-  EXPECT_NE(first_screen(e, {}, nullptr, "").find("<strong>85 warnings</strong>; the first: blocks overlap"),
-            std::string::npos);
-}
-
 // A path to 2 s that ends at 1.5 s under a tenth of the weight from the side.
 TEST(FirstScreen, APathThatEndsEarlySaysWhatItBore) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
