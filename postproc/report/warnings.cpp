@@ -59,4 +59,14 @@ std::string warnings_html(const std::vector<std::string>& warnings) {
   return out;
 }
 
+std::vector<std::string> warning_lines(const std::vector<std::string>& warnings) {
+  std::vector<std::string> lines;
+  for (const Alike& some : alike(warnings))
+    if (some.warnings.size() <= kMostAlike)
+      lines.insert(lines.end(), some.warnings.begin(), some.warnings.end());
+    else
+      lines.push_back(fmt::format("{} like this: {}", some.warnings.size(), some.warnings.front()));
+  return lines;
+}
+
 }  // namespace cupola

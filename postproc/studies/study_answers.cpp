@@ -14,6 +14,7 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/report/warnings.hpp"
 #include "postproc/studies/study_run.hpp"
 
 namespace cupola {
@@ -120,11 +121,9 @@ std::string verdict_text(const StudyAnswers& answers, RunCache& runs, StudyPage*
     stands = run.answer("verdict.stands") == "yes";
     warnings = run.warnings();
   }
-  for (const std::string& warning : warnings)
-    page->add("<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n");
-  page->add(verdict_html(words, reason, stands));
+  page->add(verdict_html(words, reason, stands) + warnings_html(warnings));
   std::string text = fmt::format("{}: {}\n", words, reason);
-  for (const std::string& warning : warnings) text += fmt::format("  warning: {}\n", warning);
+  for (const std::string& line : warning_lines(warnings)) text += fmt::format("  warning: {}\n", line);
   return text;
 }
 

@@ -67,9 +67,9 @@ RunFiles::RunFiles(std::string folder)
 RunFiles::~RunFiles() = default;
 
 std::vector<std::string> RunFiles::warnings() {
-  status();  // reads the file
+  if (!summaries_->post) summaries_->post = read_json(folder_ + "/post/summary.json");
   std::vector<std::string> texts;
-  if (const UnorderedJson* list = descend(*summaries_->results, "warnings"); list && list->is_array())
+  if (const UnorderedJson* list = descend(*summaries_->post, "warnings"); list && list->is_array())
     for (const UnorderedJson& text : *list)
       if (text.is_string()) texts.push_back(text.get<std::string>());
   return texts;

@@ -19,7 +19,7 @@ class RunFiles {
 
   std::string status();                 ///< of results/summary.json
   std::string message();                ///< of results/summary.json: why the run ended with this status
-  std::vector<std::string> warnings();  ///< of results/summary.json
+  std::vector<std::string> warnings();  ///< of post/summary.json, as its page shows them
   std::string text_of_results(const std::string& key);  ///< of results/summary.json; InputError without it
   std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
   /// Text of post/answers.json, e.g. `verdict.words`; "" if the run has no such answer.

@@ -1,5 +1,6 @@
 // Studies of any case: groups of supports, groups of runs that do not apply, and answers of handwritten runs.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "postproc/studies/study.hpp"
@@ -45,7 +46,7 @@ TEST(SupportGroups, AreSixteenAtMost) {
 // Runs of the study "safe" of the case "a"; b failed, and the case gives no lantern.
 struct Page {
   ScratchFolder scratch;
-  std::string text;
+  std::string text, html;
 
   Page() {
     scratch.write("a.yaml", "geometry: {surface: {type: wall}}\n");
@@ -68,13 +69,17 @@ answers:
     RunCache runs(scratch.folder());
     StudyPage page("Safe", scratch.file("page"));
     text = add_answers(study.answers, study.left_out, scratch.folder(), runs, &page);
+    page.write();
+    html = read_text(scratch.file("page/study.html"));
   }
 
   void write_run(const std::string& name, const std::string& factor, const std::string& words,
                  const std::string& stands) const {
-    scratch.write("a_safe/" + name + "/results/summary.json",
-                  R"({"status": "stable", "warnings": ["odd load"]})");
-    scratch.write("a_safe/" + name + "/post/summary.json", "{\"margin_factor\": " + factor + "}");
+    std::string warnings = "\"odd load\"";
+    for (int i = 1; i < 30; ++i) warnings += fmt::format(", \"blocks {} and {} overlap: too far\"", i, i + 1);
+    scratch.write("a_safe/" + name + "/results/summary.json", R"({"status": "stable"})");
+    scratch.write("a_safe/" + name + "/post/summary.json",
+                  fmt::format("{{\"margin_factor\": {}, \"warnings\": [{}]}}", factor, warnings));
     scratch.write("a_safe/" + name + "/post/answers.json",
                   R"({"verdict": {"words": ")" + words + R"(", "reason": "because", "stands": ")" + stands +
                       R"("}, "margin": {"name": ")" + name + R"(", "value": "1 N", "detail": "hinges"}})");
@@ -93,6 +98,20 @@ TEST(StudyAnswers, SortMarginsAndSayWhatWasNotComputed) {
   EXPECT_NE(page.text.find("not computed: lantern: the case has no loads.lantern\n"), std::string::npos)
       << page.text;
   EXPECT_NE(page.text.find("not computed: b: not with this key\n"), std::string::npos) << page.text;
+}
+
+// Of the 30 warnings of the run that gives the verdict, 29 are alike.
+TEST(StudyAnswers, WarningsFollowTheVerdictAsOnThePageOfARun) {
+  const Page page;
+  const size_t verdict = page.html.find("<strong>It stands</strong>"),
+               first = page.html.find("<strong>Warning:</strong> odd load"),
+               others = page.html.find("<strong>29 warnings</strong> like this: blocks 1 and 2 overlap");
+  ASSERT_NE(others, std::string::npos) << page.html;
+  EXPECT_LT(verdict, first);
+  EXPECT_LT(first, others);
+  EXPECT_EQ(page.html.find("<strong>Warning:</strong> blocks"), std::string::npos);
+  EXPECT_NE(page.text.find("  warning: 29 like this: blocks 1 and 2 overlap: too far\n"), std::string::npos)
+      << page.text;
 }
 
 }  // namespace
