@@ -182,11 +182,10 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
   constexpr int kHalfPage = 500;  // px
   body += "<h2>Over the height</h2>\n<div class=\"side\">\n";
   for (const Figure& figure : figures)
-    body +=
-        fmt::format("<figure{}>{}<figcaption><strong>{}.</strong> {}</figcaption></figure>\n",
-                    figure.width > kHalfPage ? " class=\"wide\"" : "",
-                    html_picture((fs::path(figure_folder) / (figure.name + ".svg")).string(), figure.title),
-                    markup_text(figure.title), markup_text(figure.caption));
+    body += fmt::format("<figure{}>{}<figcaption><strong>{}.</strong> {}</figcaption></figure>\n",
+                        figure.width > kHalfPage ? " class=\"wide\"" : "",
+                        figure_picture(figure_folder, figure, figure.title), markup_text(figure.title),
+                        markup_text(figure.caption));
   body += "</div>\n";
   if (!maps.empty()) body += "<h2>Over the shell</h2>\n" + maps_html(maps, figure_folder);
   return html_page("Comparison", body);

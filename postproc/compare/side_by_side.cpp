@@ -6,12 +6,28 @@
 
 #include <fmt/format.h>
 
+#include "postproc/evaluation/meridians.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/tables/csv_file.hpp"
 
 namespace cupola {
 
-namespace fs = std::filesystem;
+namespace {
+
+/// The name of the wythe of a map in a folder as the case gives it: file names have only its letters and
+/// digits.
+std::string name_of_wythe(const std::string& folder, const std::string& in_file) {
+  const std::string path = folder + "/wythes.csv";
+  if (!std::filesystem::exists(path)) return in_file;
+  const CsvFile csv = read_csv(path);
+  const size_t wythe = csv.column("wythe");
+  for (const std::vector<std::string>& row : csv.rows)
+    if (in_file_names(row[wythe]) == in_file) return row[wythe];
+  return in_file;
+}
+
+}  // namespace
 
 std::vector<Figure> common_maps(const std::vector<std::string>& folders,
                                 const std::vector<std::string>& labels) {
@@ -24,6 +40,7 @@ std::vector<Figure> common_maps(const std::vector<std::string>& folders,
   for (size_t run = 0; run < folders.size(); ++run)
     for (ShellMap& map : read_shell_maps(folders[run])) {
       scales.include(map);
+      map.wythe = name_of_wythe(folders[run], map.wythe);
       auto same = std::ranges::find_if(maps, [&map](const std::vector<OfRun>& of_wythe) {
         return of_wythe.front().map.wythe == map.wythe;
       });
@@ -42,6 +59,11 @@ std::vector<Figure> common_maps(const std::vector<std::string>& folders,
   return figures;
 }
 
+std::string figure_picture(const std::string& folder, const Figure& figure, const std::string& alternative) {
+  const std::string picture = html_picture(picture_file(folder, figure), alternative);
+  return picture.empty() ? "Not drawn: " + markup_text(alternative) : picture;
+}
+
 std::string maps_html(const std::vector<Figure>& maps, const std::string& figure_folder) {
   std::string out, title;
   for (const Figure& map : maps) {
@@ -51,10 +73,8 @@ std::string maps_html(const std::vector<Figure>& maps, const std::string& figure
           "{}<h3>{}</h3>\n<p>{} The scales are the same for all runs.</p>\n<div class=\"side\">\n",
           out.empty() ? "" : "</div>\n", markup_text(map.title), markup_text(map.caption));
     title = map.title;
-    out += fmt::format(
-        "<figure>{}<figcaption>{}</figcaption></figure>\n",
-        html_picture((fs::path(figure_folder) / (map.name + ".png")).string(), title + ", " + label),
-        markup_text(label));
+    out += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
+                       figure_picture(figure_folder, map, title + ", " + label), markup_text(label));
   }
   return out.empty() ? "" : out + "</div>\n";
 }

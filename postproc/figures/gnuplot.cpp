@@ -110,6 +110,10 @@ void put_in_place(const Drawing& drawing) {
 
 }  // namespace
 
+std::string picture_file(const std::string& folder, const Figure& figure) {
+  return in_folder(folder, figure.name + (figure.vector ? ".svg" : ".png"));
+}
+
 std::vector<std::string> draw_figures(const std::string& folder, const std::vector<Figure>& figures) {
   make_folder(folder);
   const TemporaryFolder side(in_folder(folder, ".drawing"));

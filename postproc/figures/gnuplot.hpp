@@ -16,6 +16,9 @@ struct Figure {
   bool vector = true;             ///< false: PNG only, for maps of thousands of blocks
 };
 
+/// The file that pages show of a figure drawn into a folder.
+std::string picture_file(const std::string& folder, const Figure& figure);
+
 /// Writes NAME.gp and NAME.svg with NAME.pdf, or NAME.png unless `vector`, into a folder. Returns one line
 /// for each figure that could not be drawn; a missing or failing gnuplot is no error, since the numbers do
 /// not depend on it.

@@ -102,8 +102,7 @@ std::string figure_html(const std::string& picture, const std::string& title, co
 
 std::string figure_html(const ReportInput& input, const Figure& figure) {
   constexpr int kHalfWidth = 720;  // pixels; narrower figures stand two in a row
-  const std::string file = figure.name + (figure.vector ? ".svg" : ".png");
-  return figure_html(html_picture((std::filesystem::path(input.figure_folder) / file).string(), figure.title),
+  return figure_html(html_picture(picture_file(input.figure_folder, figure), figure.title),
                      figure.title + ".", figure.caption, figure.width <= kHalfWidth);
 }
 

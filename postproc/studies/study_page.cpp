@@ -42,7 +42,7 @@ void StudyPage::add_figures(const std::vector<Figure>& figures) {
     body_ += "<p class=\"warning\">" + markup_text(problem) + "</p>\n";
   }
   for (const Figure& figure : figures)
-    if (const std::string picture = html_picture(figure_folder + "/" + figure.name + ".svg", figure.title);
+    if (const std::string picture = html_picture(picture_file(figure_folder, figure), figure.title);
         !picture.empty())
       body_ += fmt::format("<figure>\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
                            picture, markup_text(figure.title), markup_text(figure.caption));
