@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/model/ending.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/report/first_screen.hpp"
@@ -75,7 +76,8 @@ std::string moving_html(const Evaluation& e) {
   };
   add(moving->sliding, "slides", "has slid the farthest");
   add(moving->opening, "opens", "is open the widest of those that still touch");
-  return list_html("Where it gives way", out);
+  const bool gives_way = falls(e.summary.status, e.summary.analysis);
+  return list_html(gives_way ? "Where it gives way" : "Joints that moved most", out);
 }
 
 }  // namespace
