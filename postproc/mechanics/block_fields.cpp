@@ -7,6 +7,7 @@
 
 #include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/export/placed_assembly.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
@@ -34,12 +35,18 @@ std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
   return stress;
 }
 
-/// Displacement of the material point of a block whose current position is `point`.
-Vec3 displacement_at(const Assembly& assembly, const BlockTable& blocks, int block, const Vec3& point) {
-  const Eigen::Vector4d& q = blocks.quaternion_wxyz[block];
-  const Mat3 R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-  const Vec3 at_start = assembly.blocks[block].centroid + R.transpose() * (point - blocks.position[block]);
-  return point - at_start;
+/// The vertices of every block.
+std::vector<std::vector<int>> vertices_of_blocks(const Assembly& assembly) {
+  std::vector<std::vector<int>> vertices(assembly.blocks.size());
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      vertices[part.block].insert(vertices[part.block].end(), assembly.face(f).begin(),
+                                  assembly.face(f).end());
+  for (std::vector<int>& of_block : vertices) {
+    std::ranges::sort(of_block);
+    of_block.erase(std::unique(of_block.begin(), of_block.end()), of_block.end());
+  }
+  return vertices;
 }
 
 }  // namespace
@@ -84,15 +91,19 @@ std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, 
     if (first_fixed >= 0) together.join(first_fixed, static_cast<int>(b));
     first_fixed = first_fixed < 0 ? static_cast<int>(b) : first_fixed;
   }
+  const std::vector<Eigen::Isometry3d> poses = poses_of(assembly, frame.blocks);
+  const std::vector<std::vector<int>> vertices = vertices_of_blocks(assembly);
+  /// How far a vertex of `block` is from where the other block would carry it.
+  const auto apart = [&](int block, int other) {
+    double farthest = 0.0;
+    for (const int v : vertices[block])
+      farthest = std::max(farthest,
+                          (poses[block] * assembly.vertices[v] - poses[other] * assembly.vertices[v]).norm());
+    return farthest;
+  };
   for (const JointWrench& joint : joints.wrenches) {
-    double relative = 0.0;
-    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
-      const Vec3& point = frame.contacts.point[joints.contacts[i]];
-      const Vec3 difference = displacement_at(assembly, frame.blocks, joint.block_b, point) -
-                              displacement_at(assembly, frame.blocks, joint.block_a, point);
-      relative = std::max(relative, difference.norm());
-    }
-    if (relative <= threshold) together.join(joint.block_a, joint.block_b);
+    const int a = joint.block_a, b = joint.block_b;
+    if (std::min(apart(a, b), apart(b, a)) <= threshold) together.join(a, b);
   }
   // Number the groups: the supports first, then in the order of first blocks.
   std::vector<int> number(num_blocks, -1), group(num_blocks);

@@ -38,9 +38,10 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
 
 /// Group number of every block; the blocks of one group move as one body.
 ///
-/// A joint connects its blocks unless its two sides have moved apart or slid by more than `threshold` (m);
-/// the groups are the connected components. All fixed blocks form group 0, the others are numbered in the
-/// order of their first block.
+/// A joint connects its blocks unless the motion of one moves a corner of the other by more than `threshold`
+/// (m) away from it; the groups are the connected components. Joints themselves do not tell: an open hinge
+/// touches only where it does not move. All fixed blocks form group 0, the others are numbered in the order
+/// of their first block.
 std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
                                   double threshold);
 

@@ -151,6 +151,27 @@ TEST(Evaluation, MechanismGroupsFollowTheMotion) {
   EXPECT_EQ(mechanism_groups(a, frame, joints, 0.3), (std::vector{0, 0, 0, 0}));
 }
 
+// The two upper blocks lean over the edge at x = 1.2 m, where alone they touch the block below: its points do
+// not move, and 0.1 rad lift the other end of the bed by 0.12 m.
+TEST(Evaluation, AnOpenHingePartsTheBodiesThatTurnAboutIt) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  const Eigen::AngleAxisd turn(0.1, Vec3::UnitY());
+  const Vec3 hinge(1.2, 0.4, 0.5);
+  const Eigen::Quaterniond q(turn);
+  for (const size_t b : {2u, 3u}) {
+    frame.blocks.position[b] = hinge + turn * (a.blocks[b].centroid - hinge);
+    frame.blocks.quaternion_wxyz[b] = {q.w(), q.x(), q.y(), q.z()};
+    frame.blocks.displacement[b] = frame.blocks.position[b] - a.blocks[b].centroid;
+  }
+  ContactTable& c = frame.contacts;
+  for (int i = 0; i < c.size(); ++i)
+    if (c.block_a[i] == 1 && c.point[i].x() == 0.0) c.point[i].x() = 1.2;
+  const JointWrenches joints = joint_wrenches(a, c, shell_of(a, Vec3::UnitZ()));
+  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.11), (std::vector{0, 0, 1, 1}));
+  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.14), (std::vector{0, 0, 0, 0}));
+}
+
 TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   const Assembly a = test::column(3);
   Frame stable = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4), moving = stable;
