@@ -8,6 +8,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/model/laying_course.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -97,11 +98,11 @@ std::string motion_features(const Case& scene) {
 double solves_of_stages(const Case& scene, const Assembly& assembly) {
   constexpr double kSolvesPerSearch = 4.0;  // most stages confirm the bracket of the stage before
   const StagedConstruction& staged = scene.analysis.staged;
-  const int rings = std::max(1, assembly.num_rings);
-  const int last = staged.last_ring < 0 ? rings - 1 : std::min(staged.last_ring, rings - 1);
+  const int rings = 1 + laying_course(assembly, std::max(0, assembly.num_rings - 1));
   double solves = 0.0;
-  for (const LaidBlocks& stage : laying_order(assembly, staged, staged.first_ring, last)) {
-    const int courses = staged.hold_below < 0 ? stage.ring + 1 : std::min(stage.ring, staged.hold_below) + 1;
+  for (const LaidBlocks& stage : laying_order(assembly, staged)) {
+    const int courses =
+        staged.hold_below < 0 ? stage.course + 1 : std::min(stage.course, staged.hold_below) + 1;
     solves += static_cast<double>(courses) / rings;
   }
   return staged.least == StagedConstruction::Least::none ? solves : (1.0 + kSolvesPerSearch) * solves;

@@ -54,24 +54,27 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
       assembly_(assembly),
       sinks_(sinks),
       building_(scene, assembly, sinks.log),
+      stages_(laying_order(assembly, staged_)),
       search_(first_search(scene)) {
-  const int top = std::max(0, std::ranges::max(building_.site().course));
-  const int last = staged_.last_ring < 0 ? top : std::min(staged_.last_ring, top);
-  if (staged_.first_ring > last)
-    throw InputError(fmt::format("analysis.staged.first_ring = {}: must not exceed the last ring, {}",
-                                 staged_.first_ring, last));
-  stages_ = laying_order(assembly, staged_, staged_.first_ring, last);
+  if (stages_.empty())
+    throw InputError(
+        fmt::format("analysis.staged.first_ring = {}: no course is laid from there to {}; the model has the "
+                    "rings 0 to {}, and two rings of an arch or barrel laid at once have the lower number",
+                    staged_.first_ring,
+                    staged_.last_ring < 0 ? "the top" : fmt::format("last_ring = {}", staged_.last_ring),
+                    std::ranges::max(assembly.blocks, {}, &Block::ring).ring));
 }
 
 /// The courses below the first stage, as if built at once, with the mortar that they have in that stage.
 /// False if they do not stand.
 bool ConstructionRun::lay_foundation() {
+  const int first = stages_.front().course;
   std::vector<int> below;
   for (size_t block = 0; block < assembly_.blocks.size(); ++block)
-    if (!assembly_.blocks[block].fixed && building_.site().course[block] < staged_.first_ring)
+    if (!assembly_.blocks[block].fixed && building_.site().course[block] < first)
       below.push_back(static_cast<int>(block));
   if (below.empty()) return true;
-  building_.lay(below, staged_.first_ring);
+  building_.lay(below, first);
   if (!staged_.carry || !building_.any_free()) return true;
   const StaticSolution solution = building_.solve();
   const Frame frame = stage_frame(building_, solution);
@@ -88,7 +91,7 @@ bool ConstructionRun::lay_foundation() {
 /// One stage, from what the last one left.
 void ConstructionRun::advance() {
   const LaidBlocks& laid = stages_[progress_.next];
-  building_.lay(laid.blocks, laid.ring);
+  building_.lay(laid.blocks, laid.course);
   SolvedStage stage = solve_stage(&building_, &search_);
   record(building_, stage);
   if (!staged_.carry) return;
@@ -115,7 +118,7 @@ bool ConstructionRun::advance_at_once() {
   const auto lay = [&](int i) -> Separate& {
     const std::lock_guard lock(laying);
     for (; laid <= i; ++laid) {
-      building_.lay(stages_[first + laid].blocks, stages_[first + laid].ring);
+      building_.lay(stages_[first + laid].blocks, stages_[first + laid].course);
       separate[laid] = std::make_unique<Separate>(Separate{building_});
     }
     return *separate[i];

@@ -3,19 +3,21 @@
 #include <algorithm>
 #include <map>
 
+#include "assembly/model/laying_course.hpp"
+
 namespace cupola {
 namespace {
 
 /// The blocks of a course in the order in which one team would lay them all.
 std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruction& staged,
-                                 const std::vector<int>& courses, int ring) {
+                                 const std::vector<int>& courses, int number) {
   using enum StagedConstruction::Order;
   std::vector<int> course;
   for (int block = 0; block < static_cast<int>(assembly.blocks.size()); ++block)
-    if (!assembly.blocks[block].fixed && courses[block] == ring) course.push_back(block);
+    if (!assembly.blocks[block].fixed && courses[block] == number) course.push_back(block);
   const auto slot = [&](int block) { return assembly.blocks[block].slot; };
   std::ranges::stable_sort(course, {}, slot);
-  if (staged.order == clockwise || (staged.order == alternating && ring % 2 == 1))
+  if (staged.order == clockwise || (staged.order == alternating && number % 2 == 1))
     std::ranges::reverse(course);
   if (staged.order != given) return course;
   std::map<int, size_t> place;
@@ -31,33 +33,29 @@ std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruct
 
 std::vector<int> laying_courses(const Assembly& assembly) {
   std::vector<int> courses;
-  for (const Block& block : assembly.blocks) {
-    const Sheet* sheet = block.fixed ? nullptr : assembly.sheet_of(block.ring);
-    int course = block.fixed ? -1 : block.ring;
-    if (sheet && sheet->thrust_lines == Sheet::ThrustLines::one) {
-      const int last = 2 * sheet->first_ring + sheet->num_rings - block.ring - block.num_rings;
-      course = std::min(course, last);
-    }
-    courses.push_back(course);
-  }
+  for (const Block& block : assembly.blocks) courses.push_back(laying_course(assembly, block));
   return courses;
 }
 
-std::vector<LaidBlocks> laying_order(const Assembly& assembly, const StagedConstruction& staged, int first,
-                                     int last) {
+std::vector<LaidBlocks> laying_order(const Assembly& assembly, const StagedConstruction& staged) {
   const std::vector<int> courses = laying_courses(assembly);
   std::vector<LaidBlocks> stages;
-  for (int ring = first; ring <= last; ++ring) {
-    const std::vector<int> course = course_in_order(assembly, staged, courses, ring);
-    if (course.empty()) continue;
+  int top = 0;
+  for (const Block& block : assembly.blocks) top = std::max(top, block.ring);
+  if (staged.last_ring >= 0) top = std::min(top, staged.last_ring);
+  for (int ring = 0, number = -1; ring <= top; ++ring) {
+    if (laying_course(assembly, ring) <= number) continue;  // laid with a lower ring
+    number = laying_course(assembly, ring);
+    const std::vector<int> course = course_in_order(assembly, staged, courses, number);
+    if (ring < staged.first_ring || course.empty()) continue;
     if (staged.unit == StagedConstruction::Unit::ring) {
-      stages.push_back({ring, 1.0, course});
+      stages.push_back({ring, number, 1.0, course});
       continue;
     }
     const size_t n = course.size(), teams = std::min<size_t>(staged.teams, n);
     const size_t longest = (n + teams - 1) / teams;
     for (size_t k = 0; k < longest; ++k) {
-      LaidBlocks stage{ring, static_cast<double>(k + 1) / static_cast<double>(longest), {}};
+      LaidBlocks stage{ring, number, static_cast<double>(k + 1) / static_cast<double>(longest), {}};
       for (size_t team = 0; team < teams; ++team) {
         const size_t start = team * n / teams, end = (team + 1) * n / teams;
         if (start + k < end) stage.blocks.push_back(course[start + k]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assembly/model/laying_course.hpp"
 #include "solver/analysis/construction/mortar_age.hpp"
 #include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -37,12 +38,11 @@ BuildingSite::BuildingSite(const Case& the_case, const Assembly& of_it)
       assembly(of_it),
       course(laying_courses(of_it)),
       contacts(ContactDetector(of_it, detection_options(the_case)).update(initial_poses(of_it))) {
-  const auto own = [this](int block) { return course[block] == assembly.blocks[block].ring; };
   for (Patch& patch : contacts.patches) {
     rings.push_back(patch.ring);
+    const int upper = std::max(course[patch.block_a], course[patch.block_b]);
     // A joint with a support is as old as its free block.
-    if (patch.kind == JointKind::base || !own(patch.block_a) || !own(patch.block_b))
-      patch.ring = std::max(course[patch.block_a], course[patch.block_b]);
+    patch.ring = patch.kind == JointKind::base ? upper : std::max(upper, laying_course(assembly, patch.ring));
   }
 }
 

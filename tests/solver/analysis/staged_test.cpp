@@ -125,8 +125,8 @@ TEST(Staged, LoadsAndTiesActOnlyOnceTheirBlocksAreLaid) {
   tie.block_b = 7;  // in the last course
   scene.ties.pairs = {tie};
   Construction building(scene, wall, [](const std::string&) {});
-  for (const LaidBlocks& laid : laying_order(wall, scene.analysis.staged, 0, 2)) {
-    building.lay(laid.blocks, laid.ring);
+  for (const LaidBlocks& laid : laying_order(wall, scene.analysis.staged)) {
+    building.lay(laid.blocks, laid.course);
     const Model model = stage_problem(building.site(), building.state(), {}).model;
     EXPECT_EQ(model.loads.points.size(), laid.ring == 2 ? 1U : 0U);
     EXPECT_EQ(model.ties.size(), laid.ring == 2 ? 1U : 0U);
@@ -137,6 +137,45 @@ TEST(Staged, RefusesAFirstRingAboveTheLast) {
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 7;
   EXPECT_THROW(build(scene, testing::running_bond_wall({1.0, 0.5, 0.3}, 2, 3)), InputError);
+}
+
+/// Boxes on a slope of 0.3: an arch of three rings, and a wall of one, laid right after its crown (block 2).
+Assembly arch_and_wall() {
+  Assembly boxes = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
+                                        {.center = {-3, 0, 0.5}, .ring = 0},
+                                        {.center = {0, 0, 0.5}, .ring = 1},
+                                        {.center = {3, 0, 0.5}, .ring = 2},
+                                        {.center = {6, 0, 0.5}, .ring = 3}});
+  boxes.sheets = {{.name = "arch", .num_rings = 3, .thrust_lines = Sheet::ThrustLines::one},
+                  {.name = "wall", .first_ring = 3, .num_rings = 1}};
+  return boxes;
+}
+
+// Mortar of two courses is fresh: the crown is one course old when the wall is laid, and slides with it.
+TEST(Staged, TheCrownIsOneCourseOlderThanTheNextMember) {
+  Case scene = staged_case(0.7, 0.29);
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  scene.analysis.staged.fresh.courses = 2;
+  scene.analysis.staged.first_ring = 3;
+  const Built built = build(scene, arch_and_wall());
+  ASSERT_EQ(built.failures.size(), 2U) << built.summary.message;
+  EXPECT_EQ(built.failures[0].at("block"), "2");
+  EXPECT_EQ(built.failures[1].at("block"), "4");
+}
+
+TEST(Staged, TheCrownIsOneCourseBelowTheNextMember) {
+  Case scene = staged_case(0.7, 0.5);
+  scene.analysis.staged.hold_below = 1;
+  const BuildingSite site(scene, arch_and_wall());
+  EXPECT_FALSE(site.is_held(2, site.course[4]));
+  EXPECT_TRUE(site.is_held(1, site.course[4]));
+}
+
+TEST(Staged, RefusesRingsThatAreAllLaidWithLowerOnes) {
+  Case scene = staged_case(0.6, 0.5);
+  scene.analysis.staged.first_ring = scene.analysis.staged.last_ring = 2;
+  scene.analysis.staged.least = StagedConstruction::Least::cohesion;
+  EXPECT_THROW(build(scene, arch_and_wall()), InputError);
 }
 
 // Threads solve whole stages; what is recorded, and in which order, does not depend on them.

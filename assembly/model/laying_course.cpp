@@ -1,0 +1,23 @@
+#include "assembly/model/laying_course.hpp"
+
+#include <algorithm>
+
+namespace cupola {
+
+int laying_course(const Assembly& assembly, int ring) {
+  int course = ring;
+  for (const Sheet& sheet : assembly.sheets) {
+    if (sheet.thrust_lines != Sheet::ThrustLines::one || ring < sheet.first_ring) continue;
+    const int last = sheet.num_rings - 1, from_start = ring - sheet.first_ring;
+    course -= from_start <= last ? std::max(0, 2 * from_start - last) : sheet.num_rings / 2;
+  }
+  return course;
+}
+
+int laying_course(const Assembly& assembly, const Block& block) {
+  if (block.fixed) return -1;
+  return std::min(laying_course(assembly, block.ring),
+                  laying_course(assembly, block.ring + block.num_rings - 1));
+}
+
+}  // namespace cupola

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "assembly/model/assembly.hpp"
+
+namespace cupola {
+
+/// When a course is laid, counted from 0; -1 for that of a support. The rings of an arch or barrel run from
+/// one springing to the other; it rises from both, each ring with the one as far from the other springing.
+int laying_course(const Assembly& assembly, int ring);
+
+/// The same for a block, which is laid with the first ring that it occupies.
+int laying_course(const Assembly& assembly, const Block& block);
+
+}  // namespace cupola
