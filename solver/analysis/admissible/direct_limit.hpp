@@ -51,7 +51,7 @@ using ReportTrial = std::function<void(const DirectTrial&)>;
 /// Critical value of a parameter on which the loads depend smoothly. Each iteration maximises (or minimises)
 /// the multiplier t of the loads w(x) + t w'(x), linear in x, and moves x by t: one solve where the loads are
 /// linear in the parameter, a few for a tilt. `low` and `high`: an admissible state exists at one of them. If
-/// one exists at both, and the loads that grow with the parameter have one by themselves, there is no limit.
+/// one exists at both, and the loads that grow away from zero have one by themselves, there is no limit.
 /// `in_unit`: from the values of the search to those of messages.
 DirectLimit limit_of_loads(
     const SceneAt& scene_at, double low, double high, double relative_width, const ReportTrial& report,

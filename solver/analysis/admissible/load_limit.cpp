@@ -37,7 +37,7 @@ ConicProblem largest_multiplier(const SceneAt& scene_at, double x, double toward
   return with_multiplier(scene->problem, derivative_of_loads(scene_at, x), -towards);
 }
 
-/// The structure stands at both ends of the bracket: perhaps it does at all values.
+/// The structure stands at both ends of the bracket: perhaps it does at all values farther from zero.
 DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high,
                                 const std::function<double(double)>& in_unit, DirectLimit limit) {
   RigidScene scene;
@@ -50,22 +50,21 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
     limit.at_admissible = std::move(scene);
     return limit;
   }
-  for (const double towards : {1.0, -1.0}) {
-    const double end = towards > 0.0 ? high : low;
-    if (solve_conic(largest_multiplier(scene_at, end, towards, &scene)).outcome != ConicOutcome::unbounded)
-      continue;
-    const ConicSolution any = solve_conic(scene.problem);
+  const double towards =
+      std::abs(low) > std::abs(high) ? -1.0 : 1.0;  // where the loads of the parameter grow
+  const double end = towards > 0.0 ? high : low;
+  const ConicSolution grown = solve_conic(largest_multiplier(scene_at, end, towards, &scene));
+  if (grown.outcome == ConicOutcome::unbounded) {
     limit = not_found(std::move(limit),
                       fmt::format("no limit: the structure stands at {:g} and at every {} value, because the "
                                   "loads that grow with it have an admissible state by themselves",
                                   in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
     limit.ending = DirectLimit::Ending::unlimited;
-    limit.gamma = any.gamma;
-    limit.at_admissible = std::move(scene);
-    return limit;
+  } else {
+    limit = not_found(std::move(limit), at_both_ends(true, in_unit(low), in_unit(high)));
+    if (grown.outcome == ConicOutcome::optimal)
+      limit.message += fmt::format(" beyond about {:.4g}", in_unit(end + grown.multipliers[0]));
   }
-  limit = not_found(std::move(limit), at_both_ends(true, in_unit(low), in_unit(high)));
-  scene = scene_at(high);
   limit.gamma = solve_conic(scene.problem).gamma;
   limit.at_admissible = std::move(scene);
   return limit;

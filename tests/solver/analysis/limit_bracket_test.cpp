@@ -1,0 +1,54 @@
+// Direct limits where the bracket of the case does not hold the critical value, or only just.
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/course_scenes.hpp"
+
+namespace cupola::limit_bracket_test {
+namespace {
+
+using Parameter = LimitSearch::Parameter;
+
+Case limit_case(Parameter parameter, double low, double high, double friction) {
+  Case scene = testing::make_case(friction, 1e-8, 0.01);
+  scene.analysis.type = AnalysisType::limit;
+  scene.analysis.limit.parameter = parameter;
+  scene.analysis.limit.low = low;
+  scene.analysis.limit.high = high;
+  return scene;
+}
+
+/// A block of 2 kN that a factor on 1 kN lifts at 2, and presses down below 0.
+Case lifted_block(double low, double high) {
+  Case scene = limit_case(Parameter::load, low, high, 0.6);
+  BlockForce lift;
+  lift.block.number = 1;
+  lift.force = {0, 0, 1000.0};
+  scene.loads.forces = {lift};
+  return scene;
+}
+
+const Assembly& block() {
+  static const Assembly block = testing::box_on_floor({1.0, 1.0, 2.0 / testing::kG});
+  return block;
+}
+
+TEST(LimitBracket, ALimitAboveItIsNamed) {
+  const Summary summary = run_limit(lifted_block(0.0, 1.0), block(), {}).value();
+  EXPECT_EQ(summary.status, Status::unconverged) << summary.message;
+  EXPECT_NE(
+      summary.message.find("stands at both ends of the bracket, 0 and 1; widen the bracket beyond about 2"),
+      std::string::npos)
+      << summary.message;
+}
+
+TEST(LimitBracket, NegativeFactorsHaveNoLimitBelow) {
+  const Summary summary = run_limit(lifted_block(-1.0, 0.0), block(), {}).value();
+  EXPECT_NE(summary.message.find("no limit: the structure stands at 0 and at every lower value"),
+            std::string::npos)
+      << summary.message;
+}
+
+}  // namespace
+}  // namespace cupola::limit_bracket_test
