@@ -96,7 +96,10 @@ Vec3 control_force(const Model& model, const EquilibriumPath& path, const Static
   }
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
-    add(tie.block_a, tie.block_b, solution.forces.ties[k] * tie_geometry(tie, path.start().poses).normal);
+    if (tie.is_restraint()) continue;  // a force of the ground
+    const State& start = path.start();
+    add(tie.block_a, tie.block_b,
+        solution.forces.ties[k] * tie_geometry(tie, start.poses, start.ground).normal);
   }
   return force;
 }

@@ -21,11 +21,12 @@ double potential_energy(const Model& model, const std::vector<Pose>& poses, doub
   return energy;
 }
 
-double tie_energy(const Model& model, const std::vector<Pose>& poses, const ContactMemories& memories) {
+double tie_energy(const Model& model, const State& state, const ContactMemories& memories) {
   double energy = 0.0;
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const double yielded = memories.ties.empty() ? 0.0 : memories.ties[k].yielded;
-    const double stretch = std::min(0.0, tie_geometry(model.ties[k], poses).gap + yielded);
+    const double stretch =
+        std::min(0.0, tie_geometry(model.ties[k], state.poses, state.ground).gap + yielded);
     energy += 0.5 * stretch * stretch / model.ties[k].compliance;
   }
   return energy;
@@ -35,7 +36,7 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
                       const ContactMemories& memories) {
   Energy energy;
   energy.potential = potential_energy(model, state.poses, state.time);
-  energy.elastic = tie_energy(model, state.poses, memories);
+  energy.elastic = tie_energy(model, state, memories);
   for (int i = 0; i < model.num_free(); ++i) {
     const int block = model.free_blocks[i];
     const Eigen::Matrix<double, 6, 1> v = state.v.segment<6>(6 * i);

@@ -20,6 +20,6 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
 double potential_energy(const Model& model, const std::vector<Pose>& poses, double time);
 
 /// J, stored in the ties.
-double tie_energy(const Model& model, const std::vector<Pose>& poses, const ContactMemories& memories);
+double tie_energy(const Model& model, const State& state, const ContactMemories& memories);
 
 }  // namespace cupola

@@ -106,7 +106,7 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
     work->friction += yielding;
     work->scheme -= p[row] * mean[row] + damping + yielding;
   }
-  work->scheme -= tie_energy(model, state.poses, memories) - start.ties;
+  work->scheme -= tie_energy(model, state, memories) - start.ties;
 }
 
 /// Work of inertia and loads.
@@ -154,8 +154,7 @@ StepWork& StepWork::operator+=(const StepWork& other) {
 
 StepStart begin_account(const Model& model, const State& state, const StepProblem& step,
                         const ContactMemories& memories, const StepOptions& options) {
-  StepStart start{
-      state, spring_energies(step, memories, options), {}, tie_energy(model, state.poses, memories)};
+  StepStart start{state, spring_energies(step, memories, options), {}, tie_energy(model, state, memories)};
   for (size_t i = 0; i < memories.ids.size(); ++i) start.elastic_gap.push_back(memories.of(i).elastic_gap);
   return start;
 }

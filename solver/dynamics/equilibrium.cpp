@@ -86,7 +86,7 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
     add(contact.block_a, contact.block_b, point, point, forces.contacts[i]);
   }
   for (size_t k = 0; k < forces.ties.size(); ++k) {
-    const TieGeometry tie = tie_geometry(model.ties[k], state.poses);
+    const TieGeometry tie = tie_geometry(model.ties[k], state.poses, state.ground);
     add(model.ties[k].block_a, model.ties[k].block_b, tie.point_a, tie.point_b, forces.ties[k] * tie.normal);
   }
 

@@ -41,6 +41,7 @@ State seen_from_ground(const Model& model, const State& state, double h) {
   const Vec3 velocity = (now - model.ground.displacement(state.time - h)) / h;
   State seen = state;
   for (Pose& pose : seen.poses) pose.p_WB -= now;
+  seen.ground.setZero();
   for (int i = 0; i < model.num_free(); ++i) seen.v.segment<3>(6 * i) -= velocity;
   return seen;
 }
@@ -51,6 +52,7 @@ State state_at_rest(const Model& model) {
   for (size_t block = 0; block < state.poses.size(); ++block)
     state.poses[block].p_WB = model.assembly->blocks[block].centroid;
   place_supports(*model.assembly, model.support_motions, 0.0, &state.poses);
+  state.ground = model.ground.displacement(0.0);
   state.v = VecX::Zero(6 * model.num_free());
   return state;
 }
@@ -146,6 +148,7 @@ void integrate_positions(const Model& model, double h, double time_advance, cons
   }
   state->time += time_advance;
   place_supports(*model.assembly, model.support_motions, state->time, &state->poses);
+  state->ground = model.ground.displacement(state->time);
 }
 
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time) {

@@ -45,9 +45,10 @@ Model make_model(const Case& scene, const Assembly& assembly);
 
 /// Positions and velocities of all blocks.
 struct State {
-  double time = 0.0;        ///< s
-  std::vector<Pose> poses;  ///< (num_blocks)
-  VecX v;                   ///< m/s, rad/s: linear then angular, world axes (6 nb, free blocks)
+  double time = 0.0;           ///< s
+  std::vector<Pose> poses;     ///< (num_blocks)
+  VecX v;                      ///< m/s, rad/s: linear then angular, world axes (6 nb, free blocks)
+  Vec3 ground = Vec3::Zero();  ///< m, displacement of the ground, which the poses contain
 };
 
 /// The state relative to the ground: without its displacement and without its mean velocity over the last step

@@ -51,7 +51,7 @@ void visit(Archive& archive, ContactMemories& x) {
 }
 template <class Archive>
 void visit(Archive& archive, State& x) {
-  archive(x.time, x.poses, x.v);
+  archive(x.time, x.poses, x.v, x.ground);
 }
 
 }  // namespace cupola

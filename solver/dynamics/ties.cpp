@@ -35,6 +35,7 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
           false,
           tie.yield_force,
           tie.chain,
+          Vec3::Zero(),
           Vec3::Zero()};
 }
 
@@ -72,16 +73,17 @@ Tie restraint_bar(const Assembly& assembly, const Restraint& restraint) {
   if (ground == assembly.blocks.end())
     throw InputError(fmt::format("{}: no block is fixed, against which a point could be held", key));
   const Vec3 direction = restraint.direction.normalized();
-  BuiltTie bar;
+  const Vec3 held = restraint.point.value_or(block.centroid);
+  Tie bar;
   bar.block_a = static_cast<int>(ground - assembly.blocks.begin());
   bar.block_b = restraint.block;
-  bar.point_b = restraint.point.value_or(block.centroid);
-  bar.length = std::cbrt(block.volume);
-  bar.point_a = bar.point_b - bar.length * direction;
-  bar.stiffness = restraint.stiffness;
-  Tie tie = make_tie(assembly, bar, key);
-  tie.direction = tie.block_a == bar.block_a ? direction : Vec3(-direction);
-  return tie;
+  bar.natural_length = std::cbrt(block.volume);
+  bar.ground = held - bar.natural_length * direction;
+  bar.p_AP_A = bar.ground - ground->centroid;
+  bar.p_BP_B = held - block.centroid;
+  bar.compliance = 1.0 / restraint.stiffness;
+  bar.direction = direction;
+  return bar;
 }
 
 /// Adds a bar that carries tension and compression.
@@ -94,13 +96,13 @@ void add_both_signs(const Tie& tie, std::vector<Tie>* ties) {
 
 }  // namespace
 
-TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses) {
-  const Pose& a = poses[tie.block_a];
+TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses, const Vec3& ground) {
+  const bool turns = !tie.is_restraint();
+  const Pose a = turns ? poses[tie.block_a] : Pose{tie.ground + ground, Eigen::Quaterniond::Identity()};
   const Pose& b = poses[tie.block_b];
-  const Vec3 r_a = a.q_WB * tie.p_AP_A;
+  const Vec3 r_a = turns ? Vec3(a.q_WB * tie.p_AP_A) : Vec3::Zero();
   const Vec3 r_b = b.q_WB * tie.p_BP_B;
   const Vec3 along = (b.p_WB - a.p_WB) + (r_b - r_a);
-  const bool turns = tie.direction.isZero();
   const double length = turns ? along.norm() : tie.direction.dot(along);
   TieGeometry geometry;
   geometry.point_a = a.p_WB + r_a;

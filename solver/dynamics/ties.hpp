@@ -14,9 +14,10 @@ namespace cupola {
 ///
 /// compliance 1/stiffness and, as compressive strength, the yield force: `yielded` is the plastic elongation
 /// so far. A strut has phi = L - L0, pushes when it is shorter than L0, and does not yield. A restraint is a
-/// tie and a strut whose direction does not turn with its ends: L is the distance of the ends along it.
+/// tie and a strut whose direction does not turn with its ends: L is the distance of the ends along it. Its
+/// end a moves with the ground, not with the fixed block that stands for it.
 struct Tie {
-  int block_a = 0, block_b = 0;                       ///< a < b
+  int block_a = 0, block_b = 0;                       ///< a < b but for restraints
   Vec3 p_AP_A = Vec3::Zero(), p_BP_B = Vec3::Zero();  ///< m, from the centroids, axes of the blocks
   double natural_length = 0.0;                        ///< L0, m
   double compliance = 0.0;                            ///< m/N, > 0
@@ -24,6 +25,9 @@ struct Tie {
   double yield_force = std::numeric_limits<double>::infinity();  ///< N, > 0, largest tension
   int chain = -1;                                                ///< index into Assembly::chains; -1: none
   Vec3 direction = Vec3::Zero();  ///< unit, world, of a restraint, from a to b; zero: along its ends
+  Vec3 ground = Vec3::Zero();     ///< m, world, of a restraint: its end a at rest
+
+  bool is_restraint() const { return !direction.isZero(); }
 };
 
 /// Position of a tie: its ends, and the direction of its force on b.
@@ -33,7 +37,8 @@ struct TieGeometry {
   Vec3 normal = Vec3::UnitZ();
   double gap = 0.0;  ///< m, positive when slack, without plastic elongation
 };
-TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses);
+/// `ground`: its displacement (m), which the poses contain.
+TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses, const Vec3& ground);
 
 /// The ties of the case and of the assembly, and its restraints, which end on the first fixed block. A rigid
 /// rod gives a tie and a strut. Throws InputError for blocks that do not exist, for ends that coincide, and

@@ -49,7 +49,7 @@ void set_rows(const Model& model, const State& state, const ContactSet& contacts
   });
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
-    const TieGeometry now = tie_geometry(tie, state.poses);
+    const TieGeometry now = tie_geometry(tie, state.poses, state.ground);
     set_row(model, state, step->num_contacts + static_cast<int>(k), tie.block_a, tie.block_b, now.point_a,
             now.point_b, contact_frame(now.normal), &step->problem);
   }
@@ -167,7 +167,7 @@ void set_tie_laws(const Model& model, const State& state, const ContactMemories&
     const int row = first_row + static_cast<int>(k);
     problem->E.segment<3>(3 * row).setConstant(tie.compliance / (options.h * h_alpha));
     const double yielded = memories.ties.empty() ? 0.0 : memories.ties[k].yielded;
-    const double gap = tie_geometry(tie, state.poses).gap + yielded;
+    const double gap = tie_geometry(tie, state.poses, state.ground).gap + yielded;
     problem->b[3 * row] = gap / options.reach_of(gap, 0.0);
     if (std::isfinite(tie.yield_force)) problem->strength[row].compression = options.h * tie.yield_force;
   }
@@ -194,14 +194,18 @@ void add_support_velocities(const Model& model, const State& state, const Contac
   std::vector<Pose> moved = state.poses;
   place_supports(*model.assembly, model.support_motions, state.time + options.advance(), &moved);
   const Eigen::Matrix<double, 6, Eigen::Dynamic> v = block_velocities(state.poses, moved, options.h);
+  Vec6 v_ground = Vec6::Zero();
+  v_ground.head<3>() = (model.ground.displacement(state.time + options.advance()) - state.ground) / options.h;
   ContactProblem& problem = step->problem;
   for (int row = 0; row < problem.num_contacts(); ++row) {
     const bool is_contact = row < step->num_contacts;
     const size_t tie = is_contact ? 0 : static_cast<size_t>(row - step->num_contacts);
     const int a = is_contact ? contacts.points[row].block_a : model.ties[tie].block_a;
     const int b = is_contact ? contacts.points[row].block_b : model.ties[tie].block_b;
+    const bool is_grounded = !is_contact && model.ties[tie].is_restraint();
+    const Vec6 v_a = is_grounded ? v_ground : Vec6(v.col(a));
     step->support_velocity.segment<3>(3 * row) =
-        problem.D_a[row].velocity(v.col(a)) + problem.D_b[row].velocity(v.col(b));
+        problem.D_a[row].velocity(v_a) + problem.D_b[row].velocity(v.col(b));
   }
 }
 

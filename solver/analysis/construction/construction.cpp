@@ -71,8 +71,11 @@ void Construction::move_supports() {
     state_.joints[i].memory.elastic_slip_A += apart - apart.dot(c.normal) * c.normal;
   }
   const std::vector<Tie> ties = make_ties(site_->scene, site_->assembly);
+  const auto gap = [](const Tie& tie, const std::vector<Pose>& poses) {
+    return tie_geometry(tie, poses, Vec3::Zero()).gap;  // no stage has restraints
+  };
   for (size_t k = 0; k < ties.size(); ++k)
-    state_.ties[k].loosening += tie_geometry(ties[k], after).gap - tie_geometry(ties[k], before).gap;
+    state_.ties[k].loosening += gap(ties[k], after) - gap(ties[k], before);
   const auto velocity = block_velocities(before, after, 1.0);
   for (size_t block = 0; block < before.size(); ++block) {
     state_.displacement[block] += velocity.col(static_cast<Eigen::Index>(block)).head<3>();

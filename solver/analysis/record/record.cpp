@@ -107,7 +107,7 @@ TieTable tie_table(const Model& model, const State& state, const std::vector<dou
   TieTable table;
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const Tie& tie = model.ties[k];
-    const TieGeometry now = tie_geometry(tie, state.poses);
+    const TieGeometry now = tie_geometry(tie, state.poses, state.ground);
     table.chain.push_back(tie.chain);
     table.block_a.push_back(tie.block_a);
     table.block_b.push_back(tie.block_b);

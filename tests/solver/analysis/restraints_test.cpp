@@ -1,6 +1,7 @@
 // Points held in one direction without friction, both ways: in statics, limits, ranges, motions and paths,
 // against closed forms.
 #include <cmath>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
@@ -173,6 +174,39 @@ TEST(Restraints, LeaveTheOtherDirectionsFreeInAMotion) {
   const double stretch = 2.0 * box.blocks[1].mass / 1e10;  // m, of its bar; twice that while it swings
   EXPECT_NEAR(simulation.state().poses[1].p_WB.x(), 0.0, 2.0 * stretch);
   EXPECT_GT(simulation.state().poses[1].p_WB.x(), 0.0);
+}
+
+// A floor that moves under a held box drags it with the friction of its bed, the force of the support.
+TEST(Restraints, DoNotMoveWithASupport) {
+  const Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
+  const double weight = free_weight(box, testing::kG);
+  Case scene = testing::make_case(0.3, 1e-9, 0.01);
+  scene.supports.restraints = {{BlockRef{1}, Vec3::Zero(), Vec3::UnitX()}};
+  SupportMove move;
+  move.displacement = {0.05, 0, 0};
+  move.time = RampInTime{};
+  scene.supports.moves = {move};
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.tolerance = 1e-8;
+  scene.analysis.path.steps = 5;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{0}, {}, Vec3::UnitX()};
+  const path_test::PathResult result = path_test::run(scene, box);
+  ASSERT_FALSE(result.rows.empty()) << result.summary.message;
+  EXPECT_NEAR(result.rows.back()[2], 0.3 * weight, 1e-6 * weight);
+  EXPECT_NEAR(result.frames.back().blocks.displacement[1].x(), 0.0, 2.0 * 0.3 * weight / 1e10);  // of its bar
+}
+
+// The ground that moves takes a held box on a frictionless floor along.
+TEST(Restraints, MoveWithTheGround) {
+  const std::string path = ::testing::TempDir() + "/ground_of_a_held_box.csv";
+  std::ofstream(path) << "0, 0\n1, 0.5\n";
+  const Assembly box = testing::box_on_floor({1.0, 1.0, 0.2});
+  Case scene = testing::make_case(0.0, 1e-8, 0.01);
+  scene.supports.restraints = {{BlockRef{1}, Vec3::Zero(), Vec3::UnitX()}};
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::displacement, Vec3::UnitX()};
+  Simulation simulation = testing::simulate(scene, box);
+  for (int step = 0; step < 50; ++step) simulation.advance();
+  EXPECT_NEAR(simulation.state().poses[1].p_WB.x(), 0.25, 1e-6);
 }
 
 TEST(Restraints, OfAFixedBlockAreRefused) {
