@@ -295,7 +295,8 @@ ExitCode solve_case(SolveRequest request) {
   summary->wall_time_seconds = wall_seconds() - started;
   summary->cpu_time_seconds = cpu_seconds();
   summary->peak_memory_bytes = peak_memory_bytes();
-  summary->warnings = united({summary->warnings, warnings.all()});
+  const std::vector<std::string> of_results = summary->warnings;
+  summary->warnings = united({of_results, warnings.all()});
   lock.check();
   writer.write_text("run.yaml", provenance(*summary) + request.scene.effective_yaml);
   // Written again even if an interrupted run wrote it: the summary lists the files that this run wrote.
@@ -303,6 +304,7 @@ ExitCode solve_case(SolveRequest request) {
   writer.write_summary(*summary);
   // Only interrupted runs need it, and what it holds depends on the time at which it was saved.
   std::filesystem::remove(checkpoint_path);
+  warnings.add(of_results);  // not before: what ran stays on disk even if --strict makes them errors
   if (!request.quiet) print_summary(*summary, request.verbose);
   return reached(summary->status) ? ExitCode::done : ExitCode::accuracy_not_reached;
 }
