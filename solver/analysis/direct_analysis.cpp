@@ -55,6 +55,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, doub
   limit.gamma /= std::hypot(1.0, limit.admissible);
   limit.admissible = degrees(limit.admissible);
   limit.moving = degrees(limit.moving);
+  limit.span = high - low;
   return limit;
 }
 
@@ -216,6 +217,7 @@ void summarize_found(const Case& scene, const DirectLimit& limit, const Analysis
   const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
   const double width = limit.relative_width(), asked = summary->accuracy.asked;
   summary->accuracy.reached = summary->accuracy.worst_over_run = width;
+  if (limit.is_zero()) summary->accuracy.norm = "width of its bracket, relative to the bracket given";
   const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;  // as above
   if (balanced) summary->status = width <= asked ? Status::stable : Status::bracketed;
   summary->critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};

@@ -6,9 +6,13 @@
 
 namespace cupola {
 
+bool DirectLimit::is_zero() const {
+  constexpr double kZero = 1e-8;  // of the span; a mechanism is looked for 1e-9 of it beyond a limit of zero
+  return std::abs(middle()) <= kZero * span;
+}
+
 double DirectLimit::relative_width() const {
-  const double size = std::abs(middle());
-  return size > 0.0 ? std::abs(admissible - moving) / size : std::abs(admissible - moving);
+  return std::abs(admissible - moving) / (is_zero() ? span : std::abs(middle()));
 }
 
 DirectLimit not_found(DirectLimit searched, std::string message) {

@@ -31,6 +31,7 @@ struct DirectLimit {
   Ending ending = Ending::undecided;
   bool found() const { return ending == Ending::found; }
   double admissible = 0.0, moving = 0.0;
+  double span = 1.0;  ///< of the search, from one end to the other
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads
   /// (motion_proof.hpp). Otherwise none do of up to `resisting_forces` times those found (conic_bounds.hpp).
   bool motion_proven = false;
@@ -41,7 +42,9 @@ struct DirectLimit {
   int trials = 0, iterations = 0;
   std::string message;  ///< how the search ended
   double middle() const { return 0.5 * (admissible + moving); }
-  double relative_width() const;
+  /// The critical value is zero but for rounding, which has no relative width.
+  bool is_zero() const;
+  double relative_width() const;  ///< relative to the middle, of zero to the span
 };
 
 /// The scene at one value of the parameter.

@@ -145,8 +145,9 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
   // At the bound itself the loads do no work on the mechanism.
   constexpr double kBeyond = 1e-9;
+  limit.span = high - low;
   const double scale = std::max(std::abs(limit.moving), std::abs(limit.admissible));
-  const double proven = limit.moving + towards * kBeyond * (scale > 0.0 ? scale : high - low);
+  const double proven = limit.moving + towards * kBeyond * (limit.is_zero() ? limit.span : scale);
   if (limit.moving == limit.admissible) limit.moving = proven;  // which end moves must show
   limit.at_admissible = scene_at(limit.admissible);
   limit.at_moving = scene_at(limit.moving);

@@ -50,5 +50,13 @@ TEST(LimitBracket, NegativeFactorsHaveNoLimitBelow) {
       << summary.message;
 }
 
+// A frictionless floor: the critical acceleration is zero, which has no relative width.
+TEST(LimitBracket, ACriticalValueOfZeroIsFound) {
+  const Summary summary = run_limit(limit_case(Parameter::acceleration, 0.0, 1.0, 0.0), block(), {}).value();
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  ASSERT_TRUE(summary.critical) << summary.message;
+  EXPECT_NEAR(summary.critical->value, 0.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace cupola::limit_bracket_test
