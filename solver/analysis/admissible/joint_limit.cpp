@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/admissible/pull_search.hpp"
 #include "solver/analysis/admissible/pull_solve.hpp"
@@ -120,7 +121,15 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
                             LimitSearch::Parameter parameter, const ReportTrial& report) {
   const bool friction = parameter == LimitSearch::Parameter::friction;
   PullTrials trials(scene_at, report);
-  if (friction) low = std::max(low, trials.joints_at(high).strength.empty() ? kNoFriction : kLeastOfMortar);
+  if (friction) {
+    const bool dry = trials.joints_at(high).strength.empty();
+    const double least = dry ? kNoFriction : kLeastOfMortar;
+    if (high <= least)
+      throw InputError(
+          fmt::format("analysis.limit.high = {}: must exceed {}, the least friction of a search{}", high,
+                      least, dry ? "" : " with cohesion"));
+    low = std::max(low, least);
+  }
   Ends ends = first_ends(low, high, relative_width, parameter, &trials);
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
     if (!end.decided) return not_found(trials.counts(), unsolved_end(end.value));

@@ -58,5 +58,15 @@ TEST(LimitBracket, ACriticalValueOfZeroIsFound) {
   EXPECT_NEAR(summary.critical->value, 0.0, 1e-9);
 }
 
+// Joints with cohesion are searched from 1e-3 up, others from 1e-5.
+TEST(LimitBracket, FrictionsBelowTheLeastOfASearchAreRefused) {
+  Case scene = limit_case(Parameter::friction, 0.0, 5e-4, 0.5);
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  EXPECT_EQ(run_limit(scene, block(), {})->status, Status::unconverged) << "the case has a friction of 0.5";
+  scene.joints.compliance.per = Compliance::Per::area;
+  scene.joints.strength = {.tension = 100.0, .cohesion = 1000.0};
+  EXPECT_THROW(run_limit(scene, block(), {}), InputError);
+}
+
 }  // namespace
 }  // namespace cupola::limit_bracket_test
