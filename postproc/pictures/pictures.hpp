@@ -12,7 +12,7 @@ namespace cupola {
 struct MovedBlocks {
   std::string caption;
   BlockTable blocks;
-  std::optional<int> top_ring;  ///< blocks above it do not exist yet
+  std::optional<int> top_ring;  ///< blocks laid after it do not exist yet
 };
 
 /// Draws the standard views of a run into the folder `pictures`, as PNG: `overview`, `inside`, `forces`,

@@ -6,6 +6,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/arrows.hpp"
+#include "assembly/model/laying_course.hpp"
 #include "postproc/pictures/view_parts.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
@@ -198,7 +199,8 @@ Coloured moved_blocks(const Pictured& run, const MovedBlocks& moved) {
   Coloured blocks;
   for (size_t b = 0; b < run.blocks.size(); ++b) {
     const Block& block = run.e.assembly.blocks[b];
-    if (moved.top_ring && block.ring > *moved.top_ring) continue;
+    const Assembly& assembly = run.e.assembly;
+    if (moved.top_ring && laying_course(assembly, block) > laying_course(assembly, *moved.top_ring)) continue;
     const Eigen::Vector4d& q = moved.blocks.quaternion_wxyz[b];
     const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
     BlockSurface surface = run.blocks[b];

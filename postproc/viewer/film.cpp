@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/model/laying_course.hpp"
+
 namespace cupola {
 namespace {
 
@@ -65,15 +67,17 @@ void Film::add(size_t index, const FrameEvaluation& frame) {
   }
 }
 
-/// The time of a stage is its course, or a fraction less while the course is open. Of an open course the
+/// The time of a stage is its ring, or a fraction less while the course is open. Of an open course the
 /// blocks that have contacts are laid.
 void Film::add_births(const Frame& frame) {
-  const std::vector<Block>& blocks = evaluation_.assembly.blocks;
-  const int unborn = std::numeric_limits<int>::max(), course = static_cast<int>(std::ceil(frame.time));
+  const Assembly& assembly = evaluation_.assembly;
+  const std::vector<Block>& blocks = assembly.blocks;
+  const int unborn = std::numeric_limits<int>::max(), ring = static_cast<int>(std::ceil(frame.time));
+  const int complete = laying_course(assembly, ring) + (frame.time == ring ? 1 : 0);  // courses
   born_.resize(blocks.size(), unborn);
   const auto lay = [&](int block) { born_[block] = std::min(born_[block], num_frames()); };
   for (int block = 0; block < static_cast<int>(blocks.size()); ++block)
-    if (blocks[block].ring < course || (blocks[block].ring == course && frame.time == course)) lay(block);
+    if (laying_course(assembly, blocks[block]) < complete) lay(block);
   for (int i = 0; i < frame.contacts.size(); ++i) {
     lay(frame.contacts.block_a[i]);
     lay(frame.contacts.block_b[i]);

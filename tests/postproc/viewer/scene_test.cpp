@@ -221,5 +221,22 @@ TEST(Film, ShowsTheBlocksOfAnOpenCourseFromTheFrameInWhichTheyAreLaid) {
   EXPECT_GT(open.born()[3], 0);
 }
 
+// The rings of an arch rise from both springings: the third and last is laid with the first.
+TEST(Film, ShowsBothHaunchesOfAnArchFromTheFirstStage) {
+  Evaluation e = test::column_evaluation(0.5, 0.3);
+  e.assembly.sheets = {{.name = "arch", .num_rings = 3, .thrust_lines = Sheet::ThrustLines::one}};
+  e.last.frame.role = FrameRole::stage;
+  e.last.frame.contacts = {};
+  e.times = {0.0, 1.0};
+  Film film(e);
+  for (size_t i = 0; i < e.times.size(); ++i) {
+    FrameEvaluation frame = e.last;
+    frame.frame.time = e.times[i];
+    film.add(i, frame);
+  }
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
+    EXPECT_EQ(film.born()[b], e.assembly.blocks[b].ring == 1 ? 1 : 0) << "block " << b;
+}
+
 }  // namespace
 }  // namespace cupola::scene_test
