@@ -133,7 +133,7 @@ void print_summary(const Summary& summary, bool verbose) {
   if (summary.critical && summary.analysis == AnalysisType::limit && reached(summary.status))
     fmt::print("{}\n", in_colour(summary.message, colour, stdout));
   else
-    fmt::print("{}: {}\n", in_colour(words_of(summary.status, summary.analysis), colour, stdout),
+    fmt::print("{}: {}\n", in_colour(words_of(summary), colour, stdout),
                summary.message);
   if (!verbose) {
     fmt::print("  {}, weight {}; {:.3g} s; --verbose prints steps and residuals\n",

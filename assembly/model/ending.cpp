@@ -4,13 +4,17 @@
 
 namespace cupola {
 
+bool falls(const Summary& summary) {
+  return summary.status == Status::collapsed || (moves(summary.status) && !summary.max_speed_m_per_s);
+}
+
 bool falls(std::string_view ending) {
   const std::optional<Status> known = enum_from_name<Status>(ending);
   return known && (moves(*known) || *known == Status::collapsed);
 }
 
-std::string words_of(Status status, AnalysisType analysis) {
-  return moves(status) && !falls(status, analysis) ? "it has not come to rest" : words_of(status);
+std::string words_of(const Summary& summary) {
+  return moves(summary.status) && !falls(summary) ? "it has not come to rest" : words_of(summary.status);
 }
 
 }  // namespace cupola

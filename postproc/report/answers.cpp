@@ -126,7 +126,7 @@ bool is_limit(const Evaluation& e) {
 }  // namespace
 
 VerdictWords words_of_run(const Summary& summary) {
-  std::string words = words_of(summary.status, summary.analysis);
+  std::string words = words_of(summary);
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
   return {words, stands(summary.status)};
 }
@@ -168,7 +168,7 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
     return least_answer(e);
   if (!at_rest(e))
-    return {"Margin", falls(e.summary.status, e.summary.analysis) ? "none" : "unknown",
+    return {"Margin", falls(e.summary) ? "none" : "unknown",
             lack_of_equilibrium(e.summary, e.last.frame.role) +
                 "; to compute what it lacks: " + command_for_margins(e)};
   if (e.last.frame.role == FrameRole::path && !stands(e.summary.status)) return end_of_path(e);

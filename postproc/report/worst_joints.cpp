@@ -76,7 +76,7 @@ std::string moving_html(const Evaluation& e) {
   };
   add(moving->sliding, "slides", "has slid the farthest");
   add(moving->opening, "opens", "is open the widest of those that still touch");
-  const bool gives_way = falls(e.summary.status, e.summary.analysis);
+  const bool gives_way = falls(e.summary);
   return list_html(gives_way ? "Where it gives way" : "Joints that moved most", out);
 }
 
