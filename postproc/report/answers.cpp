@@ -87,6 +87,12 @@ std::string first_clause(const std::string& message) {
   return message.substr(start, message.find("; ", start) - start);
 }
 
+/// "no limit above 0.15" of "friction: no limit above 0.15: the structure stands ...".
+std::string lack_of_limit(const std::string& message) {
+  const std::string clause = first_clause(message);
+  return clause.starts_with("no limit") ? clause.substr(0, clause.find(": ")) : "not found";
+}
+
 std::string last_clause(const std::string& message) {
   const size_t end = message.rfind("; ");
   return message.substr(end == std::string::npos ? 0 : end + 2);
@@ -160,7 +166,7 @@ KeyNumber margin_answer(const Evaluation& e) {
     return {"Horizontal acceleration", "none found", last_clause(e.summary.message)};
   if (is_limit(e) && at_rest(e))
     return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)),
-            stands(e.summary.status) ? "no limit" : "unknown",
+            stands(e.summary.status) ? lack_of_limit(e.summary.message) : "unknown",
             e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
   if (is_limit(e) && moves(e.summary.status))
     return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "none",

@@ -51,7 +51,7 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, doub
     report(trial);
   };
   DirectLimit limit = limit_of_loads(at_tangent, tangent(low), tangent(high), width, in_degrees, degrees);
-  if (!limit.found()) return limit;
+  if (!limit.found) return limit;
   limit.gamma /= std::hypot(1.0, limit.admissible);
   limit.admissible = degrees(limit.admissible);
   limit.moving = degrees(limit.moving);
@@ -147,22 +147,6 @@ void write_nothing_found(const Case& scene, const Assembly& assembly, const Anal
   summarize_frame(frame, own.model, summary);
 }
 
-/// Writes an admissible state of the case itself: no value that the search tried stands out. False if there is
-/// none.
-bool write_state_of_case(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks,
-                         Summary* summary) {
-  DirectLimit own;
-  own.at_admissible = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
-  const ConicSolution any = solve_conic(own.at_admissible.problem);
-  if (any.outcome != ConicOutcome::optimal) {
-    write_nothing_found(scene, assembly, sinks, summary);
-    return false;
-  }
-  own.gamma = any.gamma;
-  write_ends(own, to_string(scene.analysis.limit.parameter), scene.loads.gravity.norm(), sinks, summary);
-  return true;
-}
-
 /// The critical value and what proves it from both sides.
 std::string bounds_text(const CriticalValue& critical, const DirectLimit& limit, bool balanced) {
   const std::string state =
@@ -184,31 +168,32 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
                      limit.moving < limit.admissible ? "larger" : "smaller");
 }
 
-/// True if what holds at every value of the bracket holds for the case.
-bool holds_the_case(const Case& scene) {
-  const LimitSearch& limit = scene.analysis.limit;
-  const std::optional<double> own = own_value(scene);
-  return limit.parameter == LimitSearch::Parameter::peak_stress ||
-         (own && limit.low <= *own && *own <= limit.high);
-}
-
-/// Without a critical value: what the search shows of the case itself, if anything.
-void summarize_not_found(const Case& scene, const Assembly& assembly, const DirectLimit& limit,
+/// Without a critical value no value that the search tried stands out: the case itself is solved. The status
+/// is its own where it does what both ends of the search do.
+void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimit limit,
                          const AnalysisSinks& sinks, Summary* summary) {
   const std::string name = to_string(scene.analysis.limit.parameter);
-  const bool state = limit.gamma.size() > 0;
   summary->message = name + ": " + limit.message;
-  bool decides = limit.ending == DirectLimit::Ending::unlimited ||
-                 (limit.ending == DirectLimit::Ending::throughout && holds_the_case(scene));
-  if (state)
-    decides = write_state_of_case(scene, assembly, sinks, summary) && decides;
-  else if (limit.mechanism.size() > 0)
+  const bool stands = limit.gamma.size() > 0, moves = limit.mechanism.size() > 0;
+  RigidScene own = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
+  ConicSolution of_case;
+  if (stands || moves) of_case = solve_conic(own.problem);
+  if (stands && of_case.outcome == ConicOutcome::optimal) {
+    limit.at_admissible = std::move(own);
+    limit.gamma = of_case.gamma;
+    write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
+    // Recomputed from points and world forces: what the solver calls admissible must balance.
+    if (summary->equilibrium_residual.value() <= kOutcomeTolerance) summary->status = Status::stable;
+  } else if (moves) {
+    if (of_case.outcome == ConicOutcome::infeasible) {
+      limit.at_moving = std::move(own);
+      limit.mechanism = of_case.v;
+      summary->status = Status::moving;
+    }
     write_motion(limit, name, sinks, summary);
-  else
+  } else {
     write_nothing_found(scene, assembly, sinks, summary);
-  // Recomputed from points and world forces: what the solver calls admissible must balance.
-  const bool balanced = summary->equilibrium_residual.value_or(0.0) <= kOutcomeTolerance;
-  if (decides && (!state || balanced)) summary->status = state ? Status::stable : Status::moving;
+  }
 }
 
 void summarize_found(const Case& scene, const DirectLimit& limit, const AnalysisSinks& sinks,
@@ -244,7 +229,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
   summary.forces_unique = {false,
                            state ? "they are one of the admissible states" : "no equilibrium was found"};
-  if (limit.found())
+  if (limit.found)
     summarize_found(scene, limit, sinks, &summary);
   else
     summarize_not_found(scene, assembly, limit, sinks, &summary);

@@ -58,7 +58,15 @@ struct LimitRun {
   int num_trials = 0;
   bool interrupted = false;
 
+  std::shared_ptr<const Assembly> as_built() const {
+    return {&assembly, [](const Assembly*) {}};
+  }
   Probe probe_at(double value) const;
+  /// A static solve of a case that the parameter changed, or of the case itself.
+  Probe probe(const Case& changed, std::shared_ptr<const Assembly> blocks) const;
+  /// The status of the case itself, which takes the place of the ends of a bracket that both stand, or move;
+  /// `unconverged` if it does otherwise.
+  Status judge_the_case(StaticOutcome at_both_ends);
   /// Stores and reports a probe. Returns false if the user wants to stop.
   bool keep(double value, Probe probe);
   Bracket search_value();
@@ -66,11 +74,15 @@ struct LimitRun {
 };
 
 Probe LimitRun::probe_at(double value) const {
+  return probe(case_at(scene, value), scene.analysis.limit.parameter == LimitSearch::Parameter::thickness
+                                          ? std::make_shared<const Assembly>(with_thickness(assembly, value))
+                                          : as_built());
+}
+
+Probe LimitRun::probe(const Case& changed, std::shared_ptr<const Assembly> blocks) const {
   Probe probe;
-  probe.assembly = scene.analysis.limit.parameter == LimitSearch::Parameter::thickness
-                       ? std::make_shared<const Assembly>(with_thickness(assembly, value))
-                       : std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {});
-  probe.model = make_model(case_at(scene, value), *probe.assembly);
+  probe.assembly = std::move(blocks);
+  probe.model = make_model(changed, *probe.assembly);
   probe.start = state_at_rest(probe.model);
   ContactDetector detector(*probe.assembly, detection_options(scene));
   probe.contacts = detector.update(probe.start.poses);
@@ -104,6 +116,15 @@ bool LimitRun::keep(double value, Probe probe) {
   }
   interrupted = sinks.interrupted();
   return !interrupted;
+}
+
+Status LimitRun::judge_the_case(StaticOutcome at_both_ends) {
+  Probe own = probe(scene, as_built());
+  iterations += own.solution.iterations;
+  if (own.solution.outcome != at_both_ends) return Status::unconverged;
+  const Status status = status_of(at_both_ends, own.solution.proven);
+  (at_both_ends == StaticOutcome::equilibrium ? stable : moving) = std::move(own);
+  return status;
 }
 
 Bracket LimitRun::search_value() {
@@ -180,8 +201,12 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   if (run.interrupted) return std::nullopt;
 
   Summary summary;
+  const Status status = bracket.narrow         ? Status::stable
+                        : bracket.found        ? Status::bracketed
+                        : bracket.at_both_ends ? run.judge_the_case(*bracket.at_both_ends)
+                                               : Status::unconverged;
   const std::string mechanism = write_frames(run, &summary);
-  summary.status = bracket.narrow ? Status::stable : bracket.found ? Status::bracketed : Status::unconverged;
+  summary.status = status;
   if (bracket.found)
     summary.critical =
         CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};

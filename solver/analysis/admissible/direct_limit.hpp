@@ -20,16 +20,10 @@ struct DirectTrial {
 };
 
 /// The critical value between a value with an admissible state and one for which a mechanism proves that
-/// there is none.
+/// there is none. If none was found, the state or the mechanism of one end of a search both of whose ends have
+/// it; neither if the search shows nothing.
 struct DirectLimit {
-  enum class Ending {
-    undecided,   ///< nothing is shown
-    found,       ///< the bracket of the critical value
-    throughout,  ///< the structure stands, or moves, at every value between the ends of the search
-    unlimited    ///< it stands at every value in one direction
-  };
-  Ending ending = Ending::undecided;
-  bool found() const { return ending == Ending::found; }
+  bool found = false;  ///< the bracket of the critical value
   double admissible = 0.0, moving = 0.0;
   double span = 1.0;  ///< of the search, from one end to the other
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads
@@ -37,7 +31,7 @@ struct DirectLimit {
   bool motion_proven = false;
   double resisting_forces = kLargestForces;
   RigidScene at_admissible, at_moving;
-  VecX gamma;      ///< N: the admissible state, or one without limit (3 nc)
+  VecX gamma;      ///< N: the admissible state (3 nc)
   VecX mechanism;  ///< its velocities prove the motion (6 nb); empty for a stress
   int trials = 0, iterations = 0;
   std::string message;  ///< how the search ended

@@ -136,19 +136,15 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   if (ends.below.admissible() == ends.above.admissible()) {
     DirectLimit limit = not_found(trials.counts(), at_both_ends(ends.below.admissible(), low, high));
     const bool needs_none = friction && low == kNoFriction && ends.below.admissible();
-    if (needs_none) {
-      limit.ending = DirectLimit::Ending::unlimited;
+    if (needs_none)
       limit.message =
           fmt::format("no limit: the structure stands with a friction of {:g}, as good as none", kNoFriction);
-    }
     // Joints with less friction or of less extent bear no force that the others do not.
     const bool end_solved = ends.below.admissible() ? ends.below.value <= low : ends.above.value >= high;
-    if (parameter != LimitSearch::Parameter::thickness && !needs_none && end_solved) {
-      limit.ending = DirectLimit::Ending::throughout;
+    if (parameter != LimitSearch::Parameter::thickness && !needs_none && end_solved)
       limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
                                   ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
                                   ends.below.admissible() ? "stands" : "moves", low, high);
-    }
     if (ends.below.admissible()) {
       limit.gamma = admissible_state(ends.below);
       limit.at_admissible = std::move(ends.below.scene);
@@ -176,7 +172,7 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
                         ? fmt::format("; the solve at {:.8g} did not decide", undecided->first)
                         : fmt::format("; the solves from {:.8g} to {:.8g} did not decide", undecided->first,
                                       undecided->second);
-  limit.ending = DirectLimit::Ending::found;
+  limit.found = true;
   limit.admissible = search.admissible.value;
   limit.moving = search.moving.value;
   limit.gamma = admissible_state(search.admissible);

@@ -37,6 +37,13 @@ ConicProblem largest_multiplier(const SceneAt& scene_at, double x, double toward
   return with_multiplier(scene->problem, derivative_of_loads(scene_at, x), -towards);
 }
 
+/// True if the loads are linear in the parameter: the values at which it stands then form one interval.
+bool are_linear(const SceneAt& scene_at, double low, double high) {
+  const VecX at_low = scene_at(low).problem.load, change = scene_at(high).problem.load - at_low;
+  const VecX missed = change - (high - low) * derivative_of_loads(scene_at, low);
+  return missed.norm() <= 1e-9 * at_low.norm();  // of central differences
+}
+
 /// The structure stands at both ends of the bracket: perhaps it does at all values farther from zero.
 DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high,
                                 const std::function<double(double)>& in_unit, DirectLimit limit) {
@@ -59,9 +66,11 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
                       fmt::format("no limit: the structure stands at {:g} and at every {} value, because the "
                                   "loads that grow with it have an admissible state by themselves",
                                   in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
-    limit.ending = DirectLimit::Ending::unlimited;
   } else {
     limit = not_found(std::move(limit), at_both_ends(true, in_unit(low), in_unit(high)));
+    if (are_linear(scene_at, low, high))
+      limit.message =
+          fmt::format("no limit from {:g} to {:g}: {}", in_unit(low), in_unit(high), limit.message);
     if (grown.outcome == ConicOutcome::optimal)
       limit.message += fmt::format(" beyond about {:.4g}", in_unit(end + grown.multipliers[0]));
   }
@@ -70,27 +79,23 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
   return limit;
 }
 
-/// The structure moves at both ends of the bracket. Where the loads are linear in the parameter, the values
-/// at which it stands form one interval, inside the bracket or outside.
+/// The structure moves at both ends of the bracket. It stands in between or outside, if at all.
 DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
                                const std::function<double(double)>& in_unit, DirectLimit limit) {
   limit = not_found(std::move(limit), at_both_ends(false, in_unit(low), in_unit(high)));
   RigidScene scene;
   const ConicProblem from_low = largest_multiplier(scene_at, low, 1.0, &scene);
-  const VecX missed = scene_at(high).problem.load - (from_low.load + (high - low) * from_low.load_columns);
-  if (missed.norm() <= 1e-9 * from_low.load.norm()) {  // of central differences
+  if (are_linear(scene_at, low, high)) {
     const ConicSolution greatest = solve_conic(from_low);
     const bool bounded = greatest.outcome == ConicOutcome::optimal;
     const double end = bounded ? low + greatest.multipliers[0] : std::numeric_limits<double>::infinity();
     const std::string everywhere =
         fmt::format("the structure moves at every value from {:g} to {:g}", in_unit(low), in_unit(high));
     if (greatest.outcome == ConicOutcome::infeasible) {
-      limit.ending = DirectLimit::Ending::throughout;
       limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
     } else if (bounded && end > low && end < high) {
       limit.message += fmt::format("; it stands up to {:g}", in_unit(end));
     } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
-      limit.ending = DirectLimit::Ending::throughout;
       limit.message =
           everywhere + (end < high ? fmt::format("; it stands only below, up to {:g}", in_unit(end))
                                    : std::string("; it stands only above"));
@@ -137,11 +142,11 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     const bool exact = missed.norm() <= 1e-12 * problem.load.norm();
     x = next;
     if (exact || std::abs(step) <= 0.1 * relative_width * std::abs(x)) {
-      limit.ending = DirectLimit::Ending::found;
+      limit.found = true;
       break;
     }
   }
-  if (!limit.found())
+  if (!limit.found)
     return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
   // At the bound itself the loads do no work on the mechanism.
   constexpr double kBeyond = 1e-9;

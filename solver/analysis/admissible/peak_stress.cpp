@@ -35,13 +35,14 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
   limit.trials = 1;
   limit.iterations = solution.iterations;
   if (solution.outcome == ConicOutcome::infeasible) {
-    limit.ending = DirectLimit::Ending::throughout;
     limit.message = "no admissible state exists, whatever the stress";
+    limit.mechanism = solution.v;
+    limit.at_moving = std::move(rigid);
     return limit;
   }
   const ConicBounds bounds = conic_bounds(problem, solution);
   report({bounds.upper, true, {}, solution.iterations});
-  limit.ending = DirectLimit::Ending::found;
+  limit.found = true;
   limit.admissible = bounds.upper;
   limit.moving = std::min(bounds.lower, bounds.upper);
   limit.gamma = solution.gamma;

@@ -67,6 +67,7 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
   }
   const bool low_stands = at_low->outcome == StaticOutcome::equilibrium;
   if (at_low->outcome == at_high->outcome) {
+    bracket.at_both_ends = at_low->outcome;
     bracket.message = fmt::format("the structure {} at both ends of the bracket, {:g} and {:g}; {}",
                                   low_stands ? "stands" : "moves", low, high,
                                   low_stands ? "widen the bracket" : "it must stand at one");

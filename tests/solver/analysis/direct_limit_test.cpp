@@ -133,7 +133,7 @@ TEST(DirectLimit, CountsItsTrialsWithoutALimit) {
   const Case scene = limit_case(Parameter::acceleration, 0.0, 0.01, 0.7);
   const Summary summary =
       run_limit(scene, testing::make_arch({.voussoirs = 12, .thickness = 0.25}), {}).value();
-  EXPECT_EQ(summary.status, Status::unconverged);
+  EXPECT_EQ(summary.status, Status::stable);
   EXPECT_EQ(summary.steps, 2);
   EXPECT_GT(summary.iterations, 2);
 }
@@ -268,10 +268,10 @@ TEST(DirectLimit, WhatStandsOrMovesThroughoutTheBracketHasNoCriticalFriction) {
     Case scene = limit_case(Parameter::friction, low, high, friction);
     return run_limit(scene, arch, {}).value();
   };
-  const Summary stands = limit(0.7, 0.9, 0.7), weaker = limit(0.7, 0.9, 0.5);
+  const Summary stands = limit(0.7, 0.9, 0.7), weaker = limit(0.7, 0.9, 0.1);
   const Summary beyond = limit(0.05, 0.1, 0.7), within = limit(0.05, 0.1, 0.1);
   EXPECT_EQ(stands.status, Status::stable);
-  EXPECT_EQ(weaker.status, Status::unconverged) << "the case has a friction of 0.5";
+  EXPECT_EQ(weaker.status, Status::unconverged) << "the case has a friction of 0.1";
   for (const Summary& stands_at_all : {stands, weaker})
     EXPECT_NE(
         stands_at_all.message.find("no limit above 0.7: the structure stands at every value from 0.7 to 0.9"),

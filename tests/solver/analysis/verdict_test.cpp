@@ -210,7 +210,7 @@ TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
     EXPECT_NE(summary.message.find(message), std::string::npos) << summary.message;
     EXPECT_GT(frames, 0) << summary.message;
   };
-  expect(0.0, 20.0, "stands at both ends of the bracket, 0 and 20");
+  expect(0.0, 20.0, "no limit from 0 to 20: the structure stands at both ends of the bracket");
   expect(30.0, 60.0, "moves at every value from 30 to 60; it stands only below, up to 26.5651");
   input.analysis.limit.parameter = LimitSearch::Parameter::load;
   expect(0.0, 20.0, "no load depends on the parameter");
