@@ -147,7 +147,8 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   Surfaces surfaces = repair_all(raw, report);
   const std::vector<double> drawn = drawn_volumes(surfaces, raw.size());
   const DecompositionOptions options = choose_tolerances(source, surfaces.meshes, report);
-  if (report->snap > 0.0) report->snapped_facets = snap_facets(&surfaces.meshes, options, report->snap);
+  if (report->snap > 0.0)
+    report->snapped_facets = snap_facets(&surfaces.meshes, options, {report->snap, report->largest_gap});
 
   Assembly assembly;
   append_blocks(raw, surfaces, options, density, &assembly, report);

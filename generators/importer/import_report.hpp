@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +20,10 @@ struct ImportReport {
   std::vector<int> parts;                                            ///< number of convex parts per block
   int already_convex = 0, by_planes = 0, as_prisms = 0, by_nef = 0;  ///< surfaces per method
   Flatness flatness;
-  double facet_angle = 0.0, snap = 0.0;  ///< in force: rad, m
-  bool chosen = false;                   ///< one of them follows from the data
-  std::optional<double> snap_of_gaps;    ///< m, from the gaps and overlaps between faces
+  double facet_angle = 0.0, snap = 0.0;                          ///< in force: rad, m
+  double largest_gap = std::numeric_limits<double>::infinity();  ///< m, that a chosen `snap` closes
+  bool chosen = false;                                           ///< one of them follows from the data
+  std::optional<double> snap_of_gaps;  ///< m, from the gaps and overlaps between faces
   int snapped_facets = 0;
   int sliver_parts = 0;               ///< thinner than 1e-3 of their size
   double largest_volume_error = 0.0;  ///< sum of the parts minus the block, over the block's volume

@@ -40,10 +40,19 @@ std::vector<BlockFacet> all_facets(const std::vector<TriangleMesh>& blocks,
   return facets;
 }
 
-/// True if two facets of different blocks have opposite normals and overlap within `distance` (m).
+/// m, of the mean corner of facet a outside the plane of facet b; negative inside.
+double gap_between(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b) {
+  Vec3 mean = Vec3::Zero();
+  for (const int v : a.vertices) mean += blocks[a.block].vertices[v] / static_cast<double>(a.vertices.size());
+  return b.facet.plane.normal.dot(mean) - b.facet.plane.offset;
+}
+
+/// True if two facets of different blocks have opposite normals and overlap within the limits. Of facets of a
+/// curved joint, one lies beyond the plane of the other; an opening lies between both.
 bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b,
-                     double angle, double distance) {
+                     double angle, const SnapLimits& limits) {
   if (a.block == b.block || a.facet.plane.normal.dot(b.facet.plane.normal) > -std::cos(angle)) return false;
+  if (std::min(gap_between(blocks, a, b), gap_between(blocks, b, a)) > limits.gap) return false;
   for (int s : a.facet.triangles)
     for (int t : b.facet.triangles) {
       std::vector<Vec3> p, q;
@@ -53,7 +62,8 @@ bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& 
         q.push_back(blocks[b.block].corner(t, i));
         furthest = std::max(furthest, std::abs(a.facet.plane.normal.dot(q.back()) - a.facet.plane.offset));
       }
-      if (furthest <= distance && overlap_width(p, q, a.facet.plane.normal) > distance) return true;
+      if (furthest <= limits.distance && overlap_width(p, q, a.facet.plane.normal) > limits.distance)
+        return true;
     }
   return false;
 }
@@ -61,7 +71,7 @@ bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& 
 /// Pairs of facets that face each other, in increasing order.
 std::vector<std::pair<int, int>> facing_pairs(const std::vector<TriangleMesh>& blocks,
                                               const std::vector<BlockFacet>& facets, double angle,
-                                              double distance) {
+                                              const SnapLimits& limits) {
   using FacetBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
   std::vector<FacetBox> boxes;
   for (size_t i = 0; i < facets.size(); ++i) {
@@ -70,15 +80,15 @@ std::vector<std::pair<int, int>> facing_pairs(const std::vector<TriangleMesh>& b
       low = low.cwiseMin(blocks[facets[i].block].vertices[v]);
       high = high.cwiseMax(blocks[facets[i].block].vertices[v]);
     }
-    low.array() -= 0.5 * distance;
-    high.array() += 0.5 * distance;
+    low.array() -= 0.5 * limits.distance;
+    high.array() += 0.5 * limits.distance;
     boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
                        static_cast<int>(i));
   }
   std::vector<std::pair<int, int>> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
     const int i = std::min(a.info(), b.info()), j = std::max(a.info(), b.info());
-    if (face_each_other(blocks, facets[i], facets[j], angle, distance)) pairs.emplace_back(i, j);
+    if (face_each_other(blocks, facets[i], facets[j], angle, limits)) pairs.emplace_back(i, j);
   });
   std::ranges::sort(pairs);
   return pairs;
@@ -106,13 +116,6 @@ Group joined(const Group& a, const Group& b) {
   both.normal += sign * b.normal;
   both.offset += sign * b.offset;
   return both;
-}
-
-/// True if the mean corner of facet a lies inside the plane of facet b.
-bool enters(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b) {
-  Vec3 mean = Vec3::Zero();
-  for (const int v : a.vertices) mean += blocks[a.block].vertices[v] / static_cast<double>(a.vertices.size());
-  return b.facet.plane.normal.dot(mean) < b.facet.plane.offset;
 }
 
 Group alone(const std::vector<BlockFacet>& facets, int i) {
@@ -192,11 +195,12 @@ void move_vertices(const std::vector<BlockFacet>& facets, double furthest,
 
 }  // namespace
 
-int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options, double distance) {
+int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options,
+                const SnapLimits& limits) {
   std::vector<BlockFacet> facets = all_facets(*blocks, options);
-  const int moved = set_common_planes(
-      *blocks, facing_pairs(*blocks, facets, opposed_angle(options), distance), distance, &facets);
-  move_vertices(facets, 2.0 * distance, blocks);
+  const int moved = set_common_planes(*blocks, facing_pairs(*blocks, facets, opposed_angle(options), limits),
+                                      limits.distance, &facets);
+  move_vertices(facets, 2.0 * limits.distance, blocks);
   return moved;
 }
 
@@ -207,9 +211,10 @@ std::optional<double> snap_from_gaps(const std::vector<TriangleMesh>& blocks,
   constexpr double kBalance = 0.25;  // least overlap over gap of errors
   const std::vector<BlockFacet> facets = all_facets(blocks, options);
   std::vector<std::pair<double, bool>> errors;  // m, and whether the facets overlap
-  for (const auto& [i, j] : facing_pairs(blocks, facets, opposed_angle(options), largest)) {
+  for (const auto& [i, j] : facing_pairs(blocks, facets, opposed_angle(options), {largest, largest})) {
     const double error = furthest_corner(blocks, facets, joined(alone(facets, i), alone(facets, j)));
-    if (error > kNoError * largest) errors.emplace_back(error, enters(blocks, facets[i], facets[j]));
+    if (error > kNoError * largest)
+      errors.emplace_back(error, gap_between(blocks, facets[i], facets[j]) < 0.0);
   }
   std::ranges::sort(errors);
   double gap = 0.0, overlap = 0.0;

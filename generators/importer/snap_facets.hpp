@@ -7,11 +7,17 @@
 
 namespace cupola {
 
+/// Which facets of different blocks that face each other are faces of one joint.
+struct SnapLimits {
+  double distance = 0.0;  ///< m, of all their corners from one plane
+  double gap = 0.0;       ///< m, between them as drawn, at their mean corners; a wider opening stays
+};
+
 /// Gives facets of different blocks that face each other a common plane, the mean of theirs weighted by area,
-/// if all their corners lie within `distance` (m) of it. Then moves every corner to the nearest point on the
-/// planes of its facets. Returns the number of facets in common planes. Facets are found with the tolerances
-/// of `options`.
-int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options, double distance);
+/// within the limits. Then moves every corner to the nearest point on the planes of its facets. Returns the
+/// number of facets in common planes. Facets are found with the tolerances of `options`.
+int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& options,
+                const SnapLimits& limits);
 
 /// A distance (m) for snap_facets that covers the errors of a drawing whose faces are plane and in the wrong
 /// place, as rounded coordinates make them. An error is the largest distance of a corner from the common

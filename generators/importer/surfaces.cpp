@@ -105,7 +105,8 @@ DecompositionOptions choose_tolerances(const ImportedBlocks& source, const std::
   }
   const bool exact = report->flatness.relative_warp < ImportReport::kRoundedWarp;
   const double of_warp = exact ? 0.0 : kSnapPerWarp * report->flatness.warp;
-  report->snap_of_gaps = snap_from_gaps(meshes, options, kLargestError * smallest_size(meshes));
+  report->largest_gap = kLargestError * smallest_size(meshes);
+  report->snap_of_gaps = snap_from_gaps(meshes, options, report->largest_gap);
   report->snap = std::max(of_warp, report->snap_of_gaps.value_or(0.0));
   return options;
 }

@@ -52,6 +52,31 @@ TEST_F(Import, KeepsGapsThatWereDrawn) {
   EXPECT_EQ(report.snapped_facets, 0);
 }
 
+/// A box on another one, with a joint that gapes by `gap` (m), `wedge` more at x = 1. One corner of the top is
+/// lifted by 80 mm, which warps this free face by at least 20 mm, four times of which are `snap`.
+std::string gaping(double gap, double wedge) {
+  std::string text = obj_box("a", 0, 0, 1) + "o b\n";
+  for (double dz : {0.0, 1.0})
+    for (auto [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      text += fmt::format("v {} {} {}\n", x, y,
+                          1.0 + gap + dz + wedge * x * (1.0 - dz) + (dz * x * y > 0.0 ? 0.08 : 0.0));
+  const std::string box = obj_box("b", 0, 0, 9);
+  return text + box.substr(box.find("f "));
+}
+
+// Openings of more than 1 % of the smaller box, 10 mm, stay although `snap` is larger.
+TEST_F(Import, KeepsGapsThatWereDrawnBesideAWarpedFace) {
+  for (const auto& [gap, wedge] : {std::pair(0.0, 0.0), {0.008, 0.0}, {0.03, 0.0}, {0.0, 0.03}}) {
+    SCOPED_TRACE(fmt::format("gap {} m, wedge {} m", gap, wedge));
+    ImportedBlocks source;
+    source.path = write("gaping.obj", gaping(gap, wedge));
+    ImportReport report;
+    import_blocks(source, 1.0, &report);
+    EXPECT_GT(report.snap, 0.08);
+    EXPECT_EQ(report.snapped_facets, gap + 0.5 * wedge > 0.01 ? 0 : 2);
+  }
+}
+
 TEST_F(Import, FixesTheLowestBlocks) {
   ImportedBlocks source;
   source.path = write("tower.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 1, 9) + obj_box("c", 0, 2, 17));
