@@ -234,7 +234,9 @@ struct Summary {
   ForcesUnique forces_unique;
   double max_penetration_m = 0.0;
   std::optional<double> max_displacement_m;  ///< absent without an equilibrium and in limit analyses
-  std::optional<double> max_speed_m_per_s;   ///< dynamic runs only
+  /// Dynamic runs only: when that was, displacement and speed at the end, and whether it is at rest there.
+  std::optional<double> max_displacement_time_s, final_displacement_m, max_speed_m_per_s;
+  std::optional<bool> rest_at_end;
   int slipping_contacts = 0;
   int steps = 0, iterations = 0;
   double solve_time_seconds = 0.0;  ///< contact solves only, without input and output

@@ -268,6 +268,12 @@ bool at_rest(const Evaluation& e) {
   return false;
 }
 
+Vec3 ground_displacement(const Assembly& assembly, const Frame& frame) {
+  const bool follows = frame.role == FrameRole::step || frame.role == FrameRole::path;
+  if (!follows || assembly.blocks.empty()) return Vec3::Zero();
+  return frame.blocks.position[0] - assembly.blocks[0].centroid - frame.blocks.displacement[0];
+}
+
 bool is_vault(const Evaluation& e) {
   return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
          e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::by_azimuth &&

@@ -38,7 +38,8 @@ struct Farthest {
 Farthest farthest_block(const Evaluation& e) {
   Farthest farthest;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (const double d = e.last.frame.blocks.displacement[b].norm(); d > farthest.displacement)
+    if (const double d = e.last.frame.blocks.displacement[b].norm();
+        d > farthest.displacement && !e.assembly.blocks[b].fixed)
       farthest = {b, d};
   return farthest;
 }
@@ -55,11 +56,17 @@ const char* relative_to_ground(const Evaluation& e) {
   return e.scene.supports.base_motion ? ", relative to the ground" : "";
 }
 
+/// "; 50 mm at the end", if that is less than the largest.
+std::string end_text(const LargestDisplacement& largest) {
+  return largest.at_end ? fmt::format("; {} at the end", length_text(*largest.at_end)) : "";
+}
+
 void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
                          std::vector<KeyNumber>* out) {
   const double threshold = e.scene.analysis.thresholds.collapse();
-  out->push_back({"Largest displacement", length_text(farthest_block(e).displacement),
-                  fmt::format("after {:.4g} s{}", e.last.frame.time, relative_to_ground(e))});
+  const LargestDisplacement largest = largest_displacement(e);
+  out->push_back({"Largest displacement", length_text(largest.distance),
+                  fmt::format("at {:.4g} s{}{}", largest.time, relative_to_ground(e), end_text(largest))});
   const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
     return row.max_displacement > threshold;
   });
@@ -95,9 +102,12 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
   const double threshold = e.scene.analysis.thresholds.collapse();
   const Farthest farthest = farthest_block(e);
   const size_t bodies = count_bodies(e);
+  if (const LargestDisplacement largest = largest_displacement(e); largest.at_end)
+    out->push_back(fmt::format("The largest displacement of the motion is {:.3g} m{}, at {:.4g} s.",
+                               largest.distance, relative_to_ground(e), largest.time));
   out->push_back(fmt::format(
-      "At the end, {:.4g} s, the largest displacement is {:.3g} m{}, of {}; {} of {} moved farther than {:g} "
-      "m. The blocks move as {}.",
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m{}, of {}; {} of {} are farther than {:g} m "
+      "from their places. The blocks move as {}.",
       e.last.frame.time, farthest.displacement, relative_to_ground(e), block_text(e, farthest.block),
       count_moving(e, threshold), counted(e.summary.free_blocks, "free block"), threshold,
       counted(bodies, "body", "bodies")));
@@ -110,6 +120,21 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
 }
 
 }  // namespace
+
+LargestDisplacement largest_displacement(const Evaluation& e) {
+  const Summary& s = e.summary;
+  if (!s.final_displacement_m) return {farthest_block(e).displacement, e.last.frame.time, {}};
+  LargestDisplacement largest{*s.max_displacement_m, *s.max_displacement_time_s, {}};
+  if (*s.final_displacement_m < largest.distance) largest.at_end = s.final_displacement_m;
+  return largest;
+}
+
+std::string largest_displacement_text(const Evaluation& e) {
+  const LargestDisplacement largest = largest_displacement(e);
+  return fmt::format("a block moves by {}{}{}", largest.at_end ? "up to " : "", length_text(largest.distance),
+                     e.scene.supports.base_motion ? " relative to the ground" : "") +
+         (largest.at_end ? fmt::format(" (at {:.4g} s{})", largest.time, end_text(largest)) : "");
+}
 
 std::vector<KeyNumber> motion_numbers(const Evaluation& e, const std::vector<HistoryRow>& history) {
   constexpr size_t kMost = 3;

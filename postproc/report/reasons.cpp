@@ -72,21 +72,27 @@ std::string carried_text(const Evaluation& e) {
                   force_text(e.summary.weight_N), loads.empty() ? "" : ", ", loads);
   if (support_motion(e) > 0.0) return fmt::format("{}, although {}.", carry, moved_text(e));
   if (e.last.frame.role == FrameRole::step)
-    return fmt::format("{}, at rest after {:.4g} s of motion.", carry, e.last.frame.time);
+    return fmt::format("{}, at rest after {:.4g} s of motion, in which {}.", carry, e.last.frame.time,
+                       largest_displacement_text(e));
   if (e.last.frame.role == FrameRole::path) return carry + ", at the end of the path.";
   return carry + ".";
 }
 
-/// How a motion in time ended that is not at rest: by how much the blocks have moved, and what still moves.
+/// How a motion in time ended that does not stand: by how much the blocks have moved, and what still moves.
 std::string motion_text(const Evaluation& e) {
-  double farthest = 0.0;
-  for (const Vec3& displacement : e.last.frame.blocks.displacement)
-    farthest = std::max(farthest, displacement.norm());
-  const std::string moved = fmt::format(
-      "Within {:.4g} s a block moves by {}{}; a displacement above {} counts as collapse.", e.last.frame.time,
-      length_text(farthest), e.scene.supports.base_motion ? " relative to the ground" : "",
-      length_text(e.scene.analysis.thresholds.collapse()));
-  if (e.summary.status == Status::collapsed) return moved;
+  const double threshold = e.scene.analysis.thresholds.collapse();
+  const std::string moved =
+      fmt::format("Within {:.4g} s {}; a displacement above {} counts as collapse.", e.last.frame.time,
+                  largest_displacement_text(e), length_text(threshold));
+  if (e.summary.status == Status::collapsed) {
+    const LargestDisplacement largest = largest_displacement(e);
+    if (!largest.at_end || *largest.at_end > threshold || !e.summary.rest_at_end.value_or(false))
+      return moved;
+    return fmt::format(
+        "{} At the end it is at rest: with `analysis.thresholds.displacement` above {} it counts as "
+        "standing.",
+        moved, length_text(largest.distance));
+  }
   return fmt::format(
       "{} At the end it is not at rest: {}. It may vibrate with its loads, come to rest, or fall: "
       "follow it for longer.",

@@ -115,9 +115,11 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
                           "the kern. Where it exceeds 1, part of the joint is unloaded.",
                           *s.mean_kern_use));
   if (s.max_displacement_m)
-    out.push_back(fmt::format("The largest displacement of a block is {}{}.",
-                              length_text(*s.max_displacement_m),
-                              support_motion(e) > 0.0 ? ", the motion of the supports included" : ""));
+    out.push_back(fmt::format(
+        "The largest displacement of a block is {}{}.", length_text(*s.max_displacement_m),
+        e.summary.max_displacement_time_s ? fmt::format(", at {:.4g} s", *e.summary.max_displacement_time_s)
+        : support_motion(e) > 0.0         ? ", the motion of the supports included"
+                                          : ""));
   return out;
 }
 

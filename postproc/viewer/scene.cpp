@@ -260,7 +260,9 @@ std::vector<std::string> notes_of(const Evaluation& e, const Film& film, bool in
 
 /// What the displacements that are drawn have to do with real ones; "" if a slider says it.
 std::string scale_text(const Evaluation& e, const Film& film) {
-  if (film.kind() == Film::Kind::motion) return "Displacements to scale";
+  if (film.kind() == Film::Kind::motion)
+    return fmt::format("Displacements{} to scale",
+                       e.scene.supports.base_motion ? " relative to the ground," : "");
   if (film.kind() != Film::Kind::mechanism) return "";
   const char* what = !at_rest(e)          ? "How it begins to move"
                      : e.summary.critical ? "How it would begin to move beyond its limit"

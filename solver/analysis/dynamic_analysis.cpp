@@ -101,6 +101,10 @@ void DynamicRun::step() {
   progress_.rest.include(simulation_.model(), seen_, analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
+  if (now_.displacement > progress_.farthest) {
+    progress_.farthest = now_.displacement;
+    progress_.farthest_time = time;
+  }
   if (now_.speed > StopRules::kSettledSpeed) progress_.calm_since = time;
   sinks_.history(history_row(time, report_, now_, progress_.energy));
   sinks_.log(log_line(progress_.steps, time, report_, now_));
@@ -151,7 +155,8 @@ Stop DynamicRun::stop_reason() const {
   const double time = simulation_.state().time;
   if (!report_.solve.usable()) return Stop::solver_failed;
   if (is_over(analysis_, progress_.steps, time)) return Stop::time_over;
-  if (analysis_.stop.collapsed && now_.displacement > analysis_.thresholds.collapse()) return Stop::collapsed;
+  if (analysis_.stop.collapsed && progress_.farthest > analysis_.thresholds.collapse())
+    return Stop::collapsed;
   if (analysis_.stop.settled_time > 0.0 && time - progress_.calm_since >= analysis_.stop.settled_time)
     return Stop::settled;
   return Stop::no;
@@ -221,7 +226,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.equilibrium_residual = report_.balance.residual;
   summary.inertia_share = report_.balance.inertia_share;
   summary.energy_error = progress_.energy.relative_error();
-  summary.max_displacement_m = largest_displacement(last);
+  summary.final_displacement_m = now_.displacement;
   summary.max_speed_m_per_s = largest_speed(last);
   progress_.worst.summarize(&summary);
   judge_motion(analysis_, progress_, report_.solve, &summary);

@@ -34,28 +34,35 @@ std::string coarse_text(const Analysis& analysis, const RunProgress& progress) {
       analysis.adaptive->smallest, progress.worst_time_error);
 }
 
-/// `speed`: m/s, largest at the end; `displacement`: m, largest, below its threshold.
-void judge_rest(const Analysis::Thresholds& thresholds, const RestWindow& rest, double displacement,
-                double speed, Summary* summary) {
-  summary->status = Status::moving;
-  if (speed > thresholds.speed) {
-    summary->message =
-        fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at the end", speed, thresholds.speed);
-  } else if (!rest.is_slow(thresholds)) {
-    summary->message =
-        fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at {:.4g} s, within the last {:.3g} s",
-                    rest.last_fast_speed(), thresholds.speed, rest.last_fast_time(), thresholds.window);
-  } else if (rest.drift() > RestWindow::largest_drift(thresholds)) {
-    summary->message = fmt::format(
+/// Why a motion is not at rest at its end; "" if it is. `speed`: m/s, largest at the end.
+std::string unrest_text(const Analysis::Thresholds& thresholds, const RestWindow& rest, double speed) {
+  if (speed > thresholds.speed)
+    return fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at the end", speed, thresholds.speed);
+  if (!rest.is_slow(thresholds))
+    return fmt::format(
+        "largest speed {:.3g} m/s > threshold {:.3g} m/s at {:.4g} s, within the last {:.3g} s",
+        rest.last_fast_speed(), thresholds.speed, rest.last_fast_time(), thresholds.window);
+  if (rest.drift() > RestWindow::largest_drift(thresholds))
+    return fmt::format(
         "a block has moved by {:.3g} m/s on average over the last {:.3g} s, more than a tenth of the "
         "threshold {:.3g} m/s",
         rest.drift(), thresholds.window, thresholds.speed);
-  } else {
-    summary->status = Status::stable;
-    summary->message = fmt::format(
-        "largest speed {:.3g} m/s <= threshold {:.3g} m/s, displacement {:.3g} m <= threshold {:.3g} m",
-        speed, thresholds.speed, displacement, thresholds.collapse());
+  return "";
+}
+
+/// The largest displacement against its threshold, and that at the end.
+std::string displacement_text(const Summary& summary, double threshold, bool rests) {
+  const double largest = *summary.max_displacement_m, at_end = *summary.final_displacement_m;
+  std::string text =
+      fmt::format("largest displacement {:.3g} m (at {:.4g} s) {} threshold {:.3g} m", largest,
+                  *summary.max_displacement_time_s, largest > threshold ? ">" : "<=", threshold);
+  if (at_end < largest) text += fmt::format("; {:.3g} m at the end", at_end);
+  if (largest > threshold && rests) {
+    text += at_end < largest ? ", at rest" : "; at rest at the end";
+    if (at_end <= threshold)
+      text += fmt::format(": a threshold above {:.3g} m would call it stable", largest);
   }
+  return text;
 }
 
 }  // namespace
@@ -77,21 +84,28 @@ void judge_motion(const Analysis& analysis, const RunProgress& progress, const S
   summary->accuracy.asked = analysis.tolerance;
   summary->accuracy.reached = last.reached;
   summary->accuracy.worst_over_run = progress.worst_error;
+  const Analysis::Thresholds& thresholds = analysis.thresholds;
   const double speed = *summary->max_speed_m_per_s;
-  const double displacement = *summary->max_displacement_m;
+  const std::string unrest = unrest_text(thresholds, progress.rest, speed);
+  summary->max_displacement_m = progress.farthest;
+  summary->max_displacement_time_s = progress.farthest_time;
+  const std::string displacement = displacement_text(*summary, thresholds.collapse(), unrest.empty());
   if (progress.missed_steps > 0) {
     summary->status = Status::unconverged;
     summary->message = missed_text(analysis, progress, last);
   } else if (progress.coarse_steps > 0) {
     summary->status = Status::unconverged;
     summary->message = coarse_text(analysis, progress);
-  } else if (displacement > analysis.thresholds.collapse()) {
+  } else if (progress.farthest > thresholds.collapse()) {
     summary->status = Status::collapsed;
-    summary->message = fmt::format("largest displacement {:.3g} m > threshold {:.3g} m", displacement,
-                                   analysis.thresholds.collapse());
+    summary->message = displacement;
   } else {
-    judge_rest(analysis.thresholds, progress.rest, displacement, speed, summary);
+    summary->status = unrest.empty() ? Status::stable : Status::moving;
+    summary->message = !unrest.empty() ? unrest
+                                       : fmt::format("largest speed {:.3g} m/s <= threshold {:.3g} m/s, {}",
+                                                     speed, thresholds.speed, displacement);
   }
+  if (summary->status != Status::unconverged) summary->rest_at_end = unrest.empty();
   if (progress.rounded_steps > 0)
     summary->message += fmt::format(
         "; in {} rounding of the velocities kept the contact-law residual above the tolerance {:.1e}",

@@ -22,8 +22,10 @@ struct RunProgress {
   WorstOfRun worst;
   RunEnergy energy;
   RestWindow rest;
-  double calm_since = 0.0;  // s, time since which no block has been faster than the settled speed
-  int elastic_steps = 0;    // steps in which contacts begin to bounce, and their longest time of impact, s
+  double farthest = 0.0;       // m, largest displacement of a free block so far, relative to the ground
+  double farthest_time = 0.0;  // s
+  double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
+  int elastic_steps = 0;       // steps in which contacts begin to bounce, and their longest time of impact, s
   double elastic_impact = 0.0;  // (elastic_impact.hpp)
 };
 
@@ -40,14 +42,15 @@ void visit(Archive& archive, RunEnergy& x) {
 template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
   archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.coarse_steps, x.worst_time_error,
-          x.worst_error, x.measure, x.worst, x.energy, x.rest, x.calm_since, x.elastic_steps,
-          x.elastic_impact);
+          x.worst_error, x.measure, x.worst, x.energy, x.rest, x.farthest, x.farthest_time, x.calm_since,
+          x.elastic_steps, x.elastic_impact);
 }
 
 /// A warning if impacts were elastic.
 std::vector<std::string> elastic_impacts(const Analysis& analysis, const RunProgress& progress);
 
-/// Sets status, accuracy and message. `last`: the solve of the last step.
+/// Sets status, accuracy, message and the largest displacement from that and the speed at the end. `last`: the
+/// solve of the last step.
 void judge_motion(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,
                   Summary* summary);
 

@@ -1,0 +1,86 @@
+// The verdict of a motion that comes back: the largest displacement of all steps decides.
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "solver/analysis/analysis.hpp"
+#include "tests/solver/motion_scenes.hpp"
+
+namespace cupola::motion_verdict_test {
+namespace {
+
+constexpr double kFriction = 0.1, kJerk = 0.2, kDuration = 0.1;  // -, m, s
+
+/// The ground jerks by 0.2 m in x within 0.1 s and back after half a second; the block slides on it. Within the jerk
+/// friction carries it along by mu g t2 / 2 = 4.9 mm, so that it is 195.1 mm behind; after the way back it lies where it
+/// started.
+Case jerked_block(double threshold) {
+  const std::string path = ::testing::TempDir() + "/jerk.csv";
+  std::ofstream(path) << "0, 0\n0.1, 0.2\n0.5, 0.2\n0.6, 0\n";
+  Case scene = testing::make_case(kFriction, 1e-9, 0.002);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 1.5;
+  scene.analysis.start = Analysis::Start::static_;
+  scene.analysis.thresholds.displacement = threshold;
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::displacement, Vec3::UnitX()};
+  return scene;
+}
+
+constexpr double kFarthest = kJerk - 0.5 * kFriction * testing::kG * kDuration * kDuration;  // m
+// In n steps of h friction carries the block by mu g h2 n (n + 1) / 2, 0.1 mm too far in each of three phases.
+constexpr double kOfSteps = 3e-4;  // m
+
+Summary summary_of(const Case& scene, const AnalysisSinks& sinks = {}) {
+  return run_dynamic(scene, testing::box_on_floor({1, 1, 1}), sinks).value();
+}
+
+void expect_the_way_back(const Summary& summary) {
+  EXPECT_NEAR(summary.max_displacement_m.value(), kFarthest, kOfSteps);
+  EXPECT_NEAR(summary.max_displacement_time_s.value(), kDuration, 0.002);
+  EXPECT_LT(summary.final_displacement_m.value(), kOfSteps);
+  EXPECT_TRUE(summary.rest_at_end.value());
+}
+
+TEST(MotionThatComesBack, StandsIfItWasNeverBeyondTheThreshold) {
+  const Summary summary = summary_of(jerked_block(0.3));
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  expect_the_way_back(summary);
+}
+
+// One motion has one verdict, whether it is followed to its end or not.
+TEST(MotionThatComesBack, HasCollapsedIfItWasBeyondTheThreshold) {
+  Case scene = jerked_block(0.1);
+  const Summary summary = summary_of(scene);
+  EXPECT_EQ(summary.status, Status::collapsed) << summary.message;
+  expect_the_way_back(summary);
+  EXPECT_NE(summary.message.find("at rest: a threshold above 0.19"), std::string::npos) << summary.message;
+
+  scene.analysis.stop.collapsed = true;
+  const Summary stopped = summary_of(scene);
+  EXPECT_EQ(stopped.status, Status::collapsed) << stopped.message;
+  EXPECT_LT(stopped.max_displacement_time_s.value(), kDuration);
+  EXPECT_EQ(stopped.max_displacement_m, stopped.final_displacement_m);
+  EXPECT_FALSE(stopped.rest_at_end.value());
+}
+
+// The block is farthest at 0.1 s; the run is interrupted and resumed after that.
+TEST(MotionThatComesBack, IsJudgedAlikeAfterAnInterruption) {
+  Case scene = jerked_block(0.1);
+  scene.output.frames_every = 0.25;
+  std::string checkpoint;
+  AnalysisSinks sinks;
+  double time = 0.0;
+  sinks.frame = [&](const Frame& frame) { time = frame.time; };
+  sinks.checkpoint = [&](const std::string& bytes) { checkpoint = bytes; };
+  sinks.interrupted = [&] { return time > 0.4; };
+  ASSERT_FALSE(run_dynamic(scene, testing::box_on_floor({1, 1, 1}), sinks));
+  AnalysisSinks rest;
+  rest.resume_from = checkpoint;
+  const Summary summary = summary_of(scene, rest);
+  EXPECT_EQ(summary.status, Status::collapsed) << summary.message;
+  expect_the_way_back(summary);
+}
+
+}  // namespace
+}  // namespace cupola::motion_verdict_test
