@@ -14,7 +14,7 @@ TEST(WorstJoints, GiveWayOnlyIfItFalls) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.last.frame.role = FrameRole::step;
   e.last.joints.wrenches[0].opening = 0.01;
-  e.summary.analysis = AnalysisType::dynamic;
+  e.summary.max_speed_m_per_s = 0.1;
   const auto html = [&e](Status status) {
     e.summary.status = status;
     return worst_joints_html(e);
