@@ -133,8 +133,7 @@ void print_summary(const Summary& summary, bool verbose) {
   if (summary.critical && summary.analysis == AnalysisType::limit && reached(summary.status))
     fmt::print("{}\n", in_colour(summary.message, colour, stdout));
   else
-    fmt::print("{}: {}\n", in_colour(words_of(summary), colour, stdout),
-               summary.message);
+    fmt::print("{}: {}\n", in_colour(words_of(summary), colour, stdout), summary.message);
   if (!verbose) {
     fmt::print("  {}, weight {}; {:.3g} s; --verbose prints steps and residuals\n",
                counted(summary.free_blocks, "free block"), readable_force(summary.weight_N),

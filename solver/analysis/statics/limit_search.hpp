@@ -19,10 +19,10 @@ struct LimitTrial {
 struct Bracket {
   LimitTrial stable, moving;  ///< the two ends
   int trials = 0;
-  bool found = false;   ///< one end stands, the other moves
-  bool narrow = false;  ///< found, and of the required width
+  bool found = false;                         ///< one end stands, the other moves
+  bool narrow = false;                        ///< found, and of the required width
   std::optional<StaticOutcome> at_both_ends;  ///< of an interval both of whose ends stand, or move
-  std::string message;  ///< how the search ended
+  std::string message;                        ///< how the search ended
   double middle() const { return 0.5 * (stable.value + moving.value); }
 };
 

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kFriction = 0.1, kJerk = 0.2, kDuration = 0.1;  // -, m, s
 
-/// The ground jerks by 0.2 m in x within 0.1 s and back after half a second; the block slides on it. Within the jerk
-/// friction carries it along by mu g t2 / 2 = 4.9 mm, so that it is 195.1 mm behind; after the way back it lies where it
-/// started.
+/// The ground jerks by 0.2 m in x within 0.1 s and back after half a second; the block slides on it. Within
+/// the jerk friction carries it along by mu g t2 / 2 = 4.9 mm, so that it is 195.1 mm behind; after the way
+/// back it lies where it started.
 Case jerked_block(double threshold) {
   const std::string path = ::testing::TempDir() + "/jerk.csv";
   std::ofstream(path) << "0, 0\n0.1, 0.2\n0.5, 0.2\n0.6, 0\n";
