@@ -74,24 +74,32 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
   if (hoop.ring >= scene.assembly.num_rings)
     throw InputError(fmt::format("{}: ring {} does not exist: the model has rings 0 to {}", kQuantitiesKey,
                                  hoop.ring, scene.assembly.num_rings - 1));
-  constexpr double kMean = -0.5 / std::numbers::pi;
+  const auto along = [&](const Vec3& point, int block) {
+    constexpr double kMean = -0.5 / std::numbers::pi;
+    return Vec3(kMean * scene.joints.outward(point, block));
+  };
   ForceFunctional f = scene.zero();
   for (const auto& [key, pair] : scene.joints.pairs()) {
     const auto [a, b] = key;
     if (in_ring(a) == in_ring(b)) continue;
     for (const int i : pair.contacts) {
       const Contact& contact = scene.contacts.points[i];
-      const Vec3 direction = kMean * scene.joints.outward(contact.point_a, in_ring(a) ? a : b);
+      const Vec3 direction = along(contact.point_a, in_ring(a) ? a : b);
       f.add(i, in_ring(contact.block_b) ? direction : Vec3(-direction));
     }
   }
   const State rest = state_at_rest(scene.model);
+  for (size_t k = 0; k < scene.model.ties.size(); ++k) {
+    const Tie& tie = scene.model.ties[k];
+    const TieGeometry line = tie_geometry(tie, rest.poses, rest.ground);
+    if (in_ring(tie.block_a)) f.ties[k] -= along(line.point_a, tie.block_a).dot(line.normal);
+    if (in_ring(tie.block_b)) f.ties[k] += along(line.point_b, tie.block_b).dot(line.normal);
+  }
   const VecX loads = applied_forces(scene.model, rest, rest.time);
   for (size_t k = 0; k < scene.model.free_blocks.size(); ++k) {
     const int block = scene.model.free_blocks[k];
     const Vec3 force = loads.segment<3>(6 * static_cast<Eigen::Index>(k));
-    if (in_ring(block))
-      f.constant += kMean * scene.joints.outward(scene.assembly.blocks[block].centroid, block).dot(force);
+    if (in_ring(block)) f.constant += along(scene.assembly.blocks[block].centroid, block).dot(force);
   }
   return {fmt::format("hoop force of ring {}", hoop.ring), "N", f, {}, {}};
 }
