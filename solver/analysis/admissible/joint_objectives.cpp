@@ -95,11 +95,16 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
     if (in_ring(tie.block_a)) f.ties[k] -= along(line.point_a, tie.block_a).dot(line.normal);
     if (in_ring(tie.block_b)) f.ties[k] += along(line.point_b, tie.block_b).dot(line.normal);
   }
-  const VecX loads = applied_forces(scene.model, rest, rest.time);
-  for (size_t k = 0; k < scene.model.free_blocks.size(); ++k) {
-    const int block = scene.model.free_blocks[k];
-    const Vec3 force = loads.segment<3>(6 * static_cast<Eigen::Index>(k));
-    if (in_ring(block)) f.constant += along(scene.assembly.blocks[block].centroid, block).dot(force);
+  const LoadSet& loads = scene.model.loads;
+  for (const int block : scene.model.free_blocks) {
+    const Block& b = scene.assembly.blocks[block];
+    if (in_ring(block)) f.constant += b.mass * along(b.centroid, block).dot(loads.gravity_at(rest.time));
+  }
+  for (const PointLoad& load : loads.points) {
+    const Pose& pose = rest.poses[load.block];
+    if (in_ring(load.block))
+      f.constant += loads.factor(load, rest.time) *
+                    along(pose.p_WB + pose.q_WB * load.p_BP_B, load.block).dot(load.force);
   }
   return {fmt::format("hoop force of ring {}", hoop.ring), "N", f, {}, {}};
 }
