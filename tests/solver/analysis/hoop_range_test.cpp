@@ -68,8 +68,8 @@ TEST(HoopRange, ChainsCarryNoneOfTheMasonrysForce) {
   expect_only(hoop_force(0.0), 0.0);
 }
 
-// At the angle a from the middle of its block a load Q pushes outwards with Q cos a. The block carries the rest
-// of the Q with which the chain pulls its middle inwards: n Q (1 - cos a) / (2 pi).
+// At the angle a from the middle of its block a load Q pushes outwards with Q cos a. The block carries the
+// rest of the Q with which the chain pulls its middle inwards: n Q (1 - cos a) / (2 pi).
 TEST(HoopRange, LoadsActAtTheirPoints) {
   const double aside = 0.04;
   expect_only(hoop_force(aside), kBlocks * kLoad * (1.0 - std::cos(aside)) / (2.0 * std::numbers::pi));
