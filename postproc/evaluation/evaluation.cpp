@@ -318,7 +318,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   if (at_rest(e) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
-    out.groups = mechanism_groups(e.assembly, out.frame, out.joints,
+    out.groups = mechanism_groups(e.assembly, poses_of(e.assembly, out.frame.blocks), out.joints,
                                   kGroupShare * largest_norm(out.frame.blocks.displacement));
   return out;
 }

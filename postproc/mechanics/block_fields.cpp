@@ -7,7 +7,6 @@
 
 #include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/export/placed_assembly.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
@@ -81,8 +80,8 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
   return fields;
 }
 
-std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                                  double threshold) {
+std::vector<int> mechanism_groups(const Assembly& assembly, const std::vector<Eigen::Isometry3d>& poses,
+                                  const JointWrenches& joints, double threshold) {
   const size_t num_blocks = assembly.blocks.size();
   DisjointSets together(num_blocks);
   int first_fixed = -1;
@@ -91,7 +90,6 @@ std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, 
     if (first_fixed >= 0) together.join(first_fixed, static_cast<int>(b));
     first_fixed = first_fixed < 0 ? static_cast<int>(b) : first_fixed;
   }
-  const std::vector<Eigen::Isometry3d> poses = poses_of(assembly, frame.blocks);
   const std::vector<std::vector<int>> vertices = vertices_of_blocks(assembly);
   /// How far a vertex of `block` is from where the other block would carry it.
   const auto apart = [&](int block, int other) {

@@ -3,6 +3,8 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "assembly/model/applied_loads.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
 #include "postproc/mechanics/shell.hpp"
@@ -36,13 +38,14 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
                                       const std::vector<PointForce>& loads,
                                       const std::vector<ShellAxes>& axes);
 
-/// Group number of every block; the blocks of one group move as one body.
+/// Group number of every block; the blocks of one group move as one body. `poses`: of every block, from where
+/// it was built.
 ///
 /// A joint connects its blocks unless the motion of one moves a corner of the other by more than `threshold`
 /// (m) away from it; the groups are the connected components. Joints themselves do not tell: an open hinge
 /// touches only where it does not move. All fixed blocks form group 0, the others are numbered in the order
 /// of their first block.
-std::vector<int> mechanism_groups(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                                  double threshold);
+std::vector<int> mechanism_groups(const Assembly& assembly, const std::vector<Eigen::Isometry3d>& poses,
+                                  const JointWrenches& joints, double threshold);
 
 }  // namespace cupola

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/export/placed_assembly.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/thickness.hpp"
@@ -147,8 +148,8 @@ TEST(Evaluation, MechanismGroupsFollowTheMotion) {
     frame.blocks.position[b] += Vec3(0.2, 0, 0);
   }
   const JointWrenches joints = joint_wrenches(a, frame.contacts, shell_of(a, Vec3::UnitZ()));
-  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.004), (std::vector{0, 0, 1, 1}));
-  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.3), (std::vector{0, 0, 0, 0}));
+  EXPECT_EQ(mechanism_groups(a, poses_of(a, frame.blocks), joints, 0.004), (std::vector{0, 0, 1, 1}));
+  EXPECT_EQ(mechanism_groups(a, poses_of(a, frame.blocks), joints, 0.3), (std::vector{0, 0, 0, 0}));
 }
 
 // The two upper blocks lean over the edge at x = 1.2 m, where alone they touch the block below: its points do
@@ -168,8 +169,8 @@ TEST(Evaluation, AnOpenHingePartsTheBodiesThatTurnAboutIt) {
   for (int i = 0; i < c.size(); ++i)
     if (c.block_a[i] == 1 && c.point[i].x() == 0.0) c.point[i].x() = 1.2;
   const JointWrenches joints = joint_wrenches(a, c, shell_of(a, Vec3::UnitZ()));
-  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.11), (std::vector{0, 0, 1, 1}));
-  EXPECT_EQ(mechanism_groups(a, frame, joints, 0.14), (std::vector{0, 0, 0, 0}));
+  EXPECT_EQ(mechanism_groups(a, poses_of(a, frame.blocks), joints, 0.11), (std::vector{0, 0, 1, 1}));
+  EXPECT_EQ(mechanism_groups(a, poses_of(a, frame.blocks), joints, 0.14), (std::vector{0, 0, 0, 0}));
 }
 
 TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
