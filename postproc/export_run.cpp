@@ -4,6 +4,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/export.hpp"
+#include "assembly/export/placed_assembly.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/warnings.hpp"
 #include "postproc/tables/mesh_parts.hpp"
@@ -36,7 +37,10 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   const EvaluatedRun run = evaluate_run(input);
   const Evaluation& e = run.evaluation;
   std::vector<std::string> warnings = e.warnings;
-  ExportModel model{e.assembly, e.last.poses.of_block, {}, common_scale(e)};
+  const FrameRole role = e.last.frame.role;
+  const bool moves = role == FrameRole::step || role == FrameRole::path;
+  ExportModel model{e.assembly, {}, {}, common_scale(e)};
+  if (moves) model.poses = poses_of(e.assembly, e.last.frame.blocks);
   if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)
       model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));

@@ -5,19 +5,27 @@
 
 namespace cupola {
 
-std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const BlockTable& blocks) {
+namespace {
+
+std::vector<Eigen::Isometry3d> poses_at(const Assembly& assembly, const std::vector<Vec3>& position,
+                                        const std::vector<Eigen::Vector4d>& quaternion_wxyz) {
   std::vector<Eigen::Isometry3d> poses;
-  for (size_t b = 0; b < assembly.blocks.size(); ++b) {
-    const Eigen::Vector4d& q = blocks.quaternion_wxyz[b];
-    poses.push_back(Eigen::Translation3d(blocks.position[b]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]) *
+  for (size_t b = 0; b < position.size(); ++b) {
+    const Eigen::Vector4d& q = quaternion_wxyz[b];
+    poses.push_back(Eigen::Translation3d(position[b]) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]) *
                     Eigen::Translation3d(-assembly.blocks[b].centroid));
   }
   return poses;
 }
 
-std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const Frame& frame) {
-  const bool moves = frame.role == FrameRole::step || frame.role == FrameRole::path;
-  return moves ? poses_of(assembly, frame.blocks) : std::vector<Eigen::Isometry3d>{};
+}  // namespace
+
+std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const BlockTable& blocks) {
+  return poses_at(assembly, blocks.position, blocks.quaternion_wxyz);
+}
+
+std::vector<Eigen::Isometry3d> contact_poses_of(const Assembly& assembly, const BlockTable& blocks) {
+  return poses_at(assembly, blocks.contact_position, blocks.contact_quaternion_wxyz);
 }
 
 Assembly placed_assembly(const ExportModel& model) {

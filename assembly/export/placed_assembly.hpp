@@ -9,9 +9,9 @@ namespace cupola {
 /// Maps the blocks as built to where they stand in a frame, per block.
 std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const BlockTable& blocks);
 
-/// The same where the forces of a frame act on its blocks: at the end of a motion and on a path. Empty in
-/// other frames, whose forces balance in the geometry as built whatever their displacements.
-std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const Frame& frame);
+/// The same where the forces of a frame balance, with its contacts. Empty: in the geometry as built, whatever
+/// the displacements.
+std::vector<Eigen::Isometry3d> contact_poses_of(const Assembly& assembly, const BlockTable& blocks);
 
 /// The assembly with its blocks and ties where they stand: the masonry as built of an analysis in the moved
 /// geometry. Blocks no longer share vertices; courses, names and axes are those of the original.

@@ -51,4 +51,11 @@ void set_role_of_old_frame(const Summary& summary, int index, Frame* frame) {
   }
 }
 
+void set_contact_poses_of_old_frame(Frame* frame) {
+  const bool moves = frame->role == FrameRole::step || frame->role == FrameRole::path;
+  if (!moves || !frame->blocks.contact_position.empty()) return;
+  frame->blocks.contact_position = frame->blocks.position;
+  frame->blocks.contact_quaternion_wxyz = frame->blocks.quaternion_wxyz;
+}
+
 }  // namespace cupola

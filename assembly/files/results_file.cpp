@@ -70,7 +70,9 @@ Mesh blocks_mesh(const Frame& frame, const RunOfFrame& run) {
   std::vector<std::int32_t> ids(frame.blocks.position.size());
   std::iota(ids.begin(), ids.end(), 0);
   mesh.point_data = {{"block", 1, std::move(ids)}};
-  fields(ColumnWriter{frame.blocks.position.size(), &mesh.point_data}, frame.blocks);
+  const ColumnWriter write{frame.blocks.position.size(), &mesh.point_data};
+  fields(write, frame.blocks);
+  if (!frame.blocks.contact_position.empty()) contact_pose_fields(write, frame.blocks);
   return mesh;
 }
 
@@ -124,7 +126,9 @@ ContactTable read_contacts(const Mesh& mesh) {
 BlockTable read_blocks(const Mesh& mesh) {
   BlockTable blocks;
   blocks.position = points_of(mesh);
-  fields(ColumnReader{blocks.position.size(), mesh, mesh.point_data}, blocks);
+  const ColumnReader read{blocks.position.size(), mesh, mesh.point_data};
+  fields(read, blocks);
+  if (mesh.has(mesh.point_data, "contact_position_m")) contact_pose_fields(read, blocks);
   return blocks;
 }
 
@@ -318,6 +322,7 @@ Frame ResultsReader::read_frame(int index) const {
     read_role(contacts, &frame);
   else
     set_role_of_old_frame(summary_, index, &frame);
+  set_contact_poses_of_old_frame(&frame);
   return frame;
 }
 

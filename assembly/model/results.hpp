@@ -76,6 +76,10 @@ struct BlockTable {
   std::vector<Vec3> velocity;                    ///< m/s
   std::vector<Vec3> angular_velocity;            ///< rad/s, world
   std::vector<Vec3> displacement;                ///< m, of the centroid
+  /// Where the block stood when the contacts of the frame were found, in whose geometry the forces balance: on
+  /// a path and in a motion, some way before the end of the step. Empty: as built.
+  std::vector<Vec3> contact_position;                    ///< m
+  std::vector<Eigen::Vector4d> contact_quaternion_wxyz;  ///< rotation
 
   int size() const { return static_cast<int>(position.size()); }
 };

@@ -49,6 +49,13 @@ void fields(Visitor&& visit, Is<BlockTable> auto& b) {
         b.displacement);
 }
 
+/// Of blocks on a path and in a motion; empty otherwise.
+template <class Visitor>
+void contact_pose_fields(Visitor&& visit, Is<BlockTable> auto& b) {
+  visit("contact_position_m", "m", "of the centroid where the contacts were found (3)", b.contact_position);
+  visit("contact_quaternion_wxyz", "", "rotation there (4)", b.contact_quaternion_wxyz);
+}
+
 template <class Visitor>
 void fields(Visitor&& visit, Is<TieTable> auto& t) {
   visit("chain", "", "chain of which it is a bar; -1: none", t.chain);

@@ -304,7 +304,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   if (e.scene.analysis.plane) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);
-  out.poses.of_block = poses_of(e.assembly, out.frame);
+  out.poses.of_block = contact_poses_of(e.assembly, out.frame.blocks);
   const Loads& loads = e.acting;
   if (out.frame.role != FrameRole::self_stress) {
     // The time of an end of a range is its number: all these states bear the same loads.

@@ -28,7 +28,7 @@ struct FrameEvaluation {
   Frame frame;
   Vec3 gravity = Vec3::Zero();    ///< m/s2, at the time of the frame
   std::vector<PointForce> loads;  ///< at the time of the frame
-  Poses poses;                    ///< where its forces act on its blocks
+  Poses poses;                    ///< at which its forces balance
   JointWrenches joints;
   std::vector<Wrench> from_below;   ///< per block, wrench from the ring below
   std::vector<BlockFields> fields;  ///< per block

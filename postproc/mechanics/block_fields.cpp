@@ -16,17 +16,20 @@ std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
                                 const std::vector<PointForce>& loads) {
   CUPOLA_ASSERT(frame.blocks.position.size() == assembly.blocks.size());
   std::vector<Mat3> stress(assembly.blocks.size(), Mat3::Zero());
+  const BlockTable& blocks = frame.blocks;
+  const std::vector<Vec3>& centroid =
+      blocks.contact_position.empty() ? blocks.position : blocks.contact_position;
   const ContactTable& c = frame.contacts;
   for (int i = 0; i < c.size(); ++i) {
-    stress[c.block_b[i]] += (c.point[i] - frame.blocks.position[c.block_b[i]]) * c.force[i].transpose();
-    stress[c.block_a[i]] -= (c.point[i] - frame.blocks.position[c.block_a[i]]) * c.force[i].transpose();
+    stress[c.block_b[i]] += (c.point[i] - centroid[c.block_b[i]]) * c.force[i].transpose();
+    stress[c.block_a[i]] -= (c.point[i] - centroid[c.block_a[i]]) * c.force[i].transpose();
   }
   const TieTable& ties = frame.ties;
   for (int i = 0; i < ties.size(); ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];
     const Vec3 on_b = tie_force_on_b(ties, i);
-    stress[b] += (ties.point_b[i] - frame.blocks.position[b]) * on_b.transpose();
-    stress[a] -= (ties.point_a[i] - frame.blocks.position[a]) * on_b.transpose();
+    stress[b] += (ties.point_b[i] - centroid[b]) * on_b.transpose();
+    stress[a] -= (ties.point_a[i] - centroid[a]) * on_b.transpose();
   }
   for (const PointForce& load : loads)
     stress[load.block] += (load.point - assembly.blocks[load.block].centroid) * load.force.transpose();

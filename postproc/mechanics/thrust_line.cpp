@@ -20,7 +20,7 @@ namespace {
 constexpr double kLeastNormalShare = 0.1;
 
 /// Share of the thickness by which a point on a face may lie beyond it: a hinge turns on the edges of two
-/// blocks, which its joint lets approach and of which a motion shows the contacts where its last step began.
+/// blocks, which its joint lets approach.
 constexpr double kOnFace = 1e-4;
 
 /// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole

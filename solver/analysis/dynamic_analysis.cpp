@@ -183,6 +183,7 @@ Frame DynamicRun::last_frame() const {
   Frame frame = make_frame(model, state, simulation_.contacts(), report_.forces, report_.violations,
                            simulation_.memories(), displacements(*model.assembly, seen_));
   set_role(FrameRole::step, "", &frame);
+  set_contact_poses(model, simulation_.contact_poses(), &frame);
   return frame;
 }
 

@@ -85,6 +85,8 @@ class Simulation {
     return &state_;
   }
   const ContactSet& contacts() const { return model_.heat.empty() ? detector_.contacts() : heated_; }
+  /// Where the blocks stood when the contacts were found.
+  const std::vector<Pose>& contact_poses() const { return detector_.memory().now.poses; }
   const ContactMemories& memories() const { return memories_; }
   Energy energy() const { return compute_energy(model_, state_, contacts(), memories_); }
   Vec3 linear_momentum() const;  ///< N s, of the free blocks

@@ -102,6 +102,10 @@ void WorstOfRun::summarize(Summary* summary) const {
 
 namespace {
 
+Eigen::Vector4d wxyz(const Pose& pose) {
+  return {pose.q_WB.w(), pose.q_WB.x(), pose.q_WB.y(), pose.q_WB.z()};
+}
+
 TieTable tie_table(const Model& model, const State& state, const std::vector<double>& forces,
                    const ContactMemories& memories) {
   TieTable table;
@@ -166,13 +170,25 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     const int i = model.free_index[block];
     const bool is_free = i != ContactProblem::kFixed;
     blocks.position.push_back(pose.p_WB);
-    blocks.quaternion_wxyz.emplace_back(pose.q_WB.w(), pose.q_WB.x(), pose.q_WB.y(), pose.q_WB.z());
+    blocks.quaternion_wxyz.push_back(wxyz(pose));
     blocks.velocity.push_back(is_free ? Vec3(state.v.segment<3>(6 * i)) : Vec3::Zero());
     blocks.angular_velocity.push_back(is_free ? Vec3(state.v.segment<3>(6 * i + 3)) : Vec3::Zero());
     blocks.displacement.push_back(displacement[block]);
   }
   frame.ties = tie_table(model, state, forces.ties, memories);
   return frame;
+}
+
+void set_contact_poses(const Model& model, const std::vector<Pose>& poses, Frame* frame) {
+  for (const Pose& pose : poses) {
+    frame->blocks.contact_position.push_back(pose.p_WB);
+    frame->blocks.contact_quaternion_wxyz.push_back(wxyz(pose));
+  }
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    const TieGeometry then = tie_geometry(model.ties[k], poses);
+    frame->ties.point_a[k] = then.point_a;
+    frame->ties.point_b[k] = then.point_b;
+  }
 }
 
 void append_parted(const ContactSet& built, const ContactSet& found, double margin, ContactTable* table) {

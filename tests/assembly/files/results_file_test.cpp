@@ -62,6 +62,9 @@ Frame two_block_frame(double time) {
     frame.blocks.velocity.emplace_back(0.1, 0.2, 0.3);
     frame.blocks.angular_velocity.emplace_back(-0.1, 1e-15, 3.0);
     frame.blocks.displacement.emplace_back(1e-3 / 3.0, 0.0, -2.0);
+    if (time == 0.0) continue;  // found as built
+    frame.blocks.contact_position.emplace_back(b, 1.0 / 7.0, time);
+    frame.blocks.contact_quaternion_wxyz.emplace_back(std::cos(0.2), 0.0, std::sin(0.2), 0.0);
   }
   return frame;
 }
@@ -90,6 +93,8 @@ void expect_equal(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.blocks.velocity, b.blocks.velocity);
   EXPECT_EQ(a.blocks.angular_velocity, b.blocks.angular_velocity);
   EXPECT_EQ(a.blocks.displacement, b.blocks.displacement);
+  EXPECT_EQ(a.blocks.contact_position, b.blocks.contact_position);
+  EXPECT_EQ(a.blocks.contact_quaternion_wxyz, b.blocks.contact_quaternion_wxyz);
   EXPECT_EQ(a.ties.chain, b.ties.chain);
   EXPECT_EQ(a.ties.block_a, b.ties.block_a);
   EXPECT_EQ(a.ties.block_b, b.ties.block_b);
@@ -180,6 +185,22 @@ TEST(ResultsFile, OldFramesGetTheirRoleFromTheSummary) {
   Frame falls;
   falls.blocks.velocity = {Vec3::Zero(), Vec3(0, 0, -1)};
   EXPECT_EQ(role(s, 3, falls), "failed_stage of stage 3");
+}
+
+// Up to version 0.4 frames did not name the poses at which their contacts were found.
+TEST(ResultsFile, OldFramesOfMotionsAndPathsStandAtTheEndOfTheirStep) {
+  const std::string folder = test::fresh_folder("poses");
+  ResultsWriter writer(folder, example_summary().assembly_hash);
+  for (const FrameRole role : {FrameRole::path, FrameRole::step, FrameRole::equilibrium}) {
+    Frame frame = two_block_frame(0.0);
+    set_role(role, "", &frame);
+    writer.write_frame(frame);
+  }
+  writer.write_summary(example_summary());
+  const ResultsReader reader(folder, example_summary().assembly_hash);
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(reader.read_frame(i).blocks.contact_position, two_block_frame(0.0).blocks.position);
+  EXPECT_TRUE(reader.read_frame(2).blocks.contact_position.empty());
 }
 
 TEST(ResultsFile, TextFilesThatChangedAreRefused) {

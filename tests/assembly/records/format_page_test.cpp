@@ -34,8 +34,11 @@ TEST(FormatPage, HasTheTablesOfTheRecords) {
   std::ostringstream page;
   page << in.rdbuf();
   const ContactTable contacts;
+  const BlockTable blocks;
   PageTable strength("array");
   strength_fields(strength, contacts);
+  PageTable contact_poses("array");
+  contact_pose_fields(contact_poses, blocks);
   for (const std::string& table : {table_of(Part(), "array"),
                                    table_of(Block(), "array"),
                                    table_of(BuiltTie(), "array"),
@@ -43,7 +46,8 @@ TEST(FormatPage, HasTheTablesOfTheRecords) {
                                    table_of(Sheet(), "array"),
                                    table_of(contacts, "array"),
                                    strength.text,
-                                   table_of(BlockTable(), "array"),
+                                   table_of(blocks, "array"),
+                                   contact_poses.text,
                                    table_of(TieTable(), "array"),
                                    table_of(Interruption(), "key"),
                                    table_of(Summary(), "key"),

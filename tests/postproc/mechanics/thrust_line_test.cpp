@@ -218,23 +218,23 @@ TEST(ThrustLine, OfAnArchIsAtTheContactPoints) {
   for (const ThrustPoint& p : line.points) EXPECT_NEAR(p.position, 0.5, 1e-12) << p.bed;
 }
 
-// In the moved geometry of a path, forces act where the blocks stand: the line is that of the column as built,
-// moved with it. Displacements of an equilibrium in the geometry as built move nothing.
-TEST(ThrustLine, MovesWithTheBlocksOfAPath) {
+// On a path, forces act where the blocks stood when their contacts were found, not where the step moved them:
+// the line is that of the column as built, moved there.
+TEST(ThrustLine, StandsWhereTheContactsWereFound) {
   const Evaluation e = test::column_evaluation(0.6, 0.3);
   const Eigen::Isometry3d move = Eigen::Translation3d(0.3, -0.7, 0.2) * Eigen::AngleAxisd(0.4, Vec3::UnitX());
   const Eigen::Quaterniond turn(move.linear());
   Frame frame = e.last.frame;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
-    frame.blocks.position[b] = move * e.assembly.blocks[b].centroid;
-    frame.blocks.quaternion_wxyz[b] = {turn.w(), turn.x(), turn.y(), turn.z()};
+    frame.blocks.position[b] += Vec3(0.0, 0.05, 0.0);
+    frame.blocks.contact_position.push_back(move * e.assembly.blocks[b].centroid);
+    frame.blocks.contact_quaternion_wxyz.emplace_back(turn.w(), turn.x(), turn.y(), turn.z());
   }
-  frame.role = FrameRole::equilibrium;
   const auto line_of = [&e](const Frame& of) {
     const FrameEvaluation evaluated = evaluate_frame(e, of);
     return thrust_line(thrust_input(e, evaluated), "arch", std::nullopt);
   };
-  const ThrustLine built = line_of(frame);
+  const ThrustLine built = line_of(e.last.frame);
   frame.role = FrameRole::path;
   for (Vec3& point : frame.contacts.point) point = move * point;
   for (Vec3& force : frame.contacts.force) force = move.linear() * force;
