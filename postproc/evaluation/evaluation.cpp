@@ -227,11 +227,13 @@ std::vector<bool> blocks_left_out(const Evaluation& e) {
   return left_out;
 }
 
-std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const std::vector<bool>& left_out) {
+/// `placed`: the blocks where the forces balance.
+std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Assembly& placed,
+                                                 const std::vector<bool>& left_out) {
   const ThrustInput input = thrust_input(e, e.last);
   std::vector<SectionEvaluation> sections;
   for (const double height : e.scene.postproc.sections) {
-    SectionEvaluation section{height, -1, cut_by_plane(e.assembly, {Vec3::UnitZ(), height}), {}};
+    SectionEvaluation section{height, -1, cut_by_plane(placed, {Vec3::UnitZ(), height}), {}};
     if (!left_out.empty()) {
       std::erase_if(section.polygons, [&](const CutPolygon& p) { return left_out[p.block]; });
       if (section.polygons.empty()) continue;
@@ -246,6 +248,19 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const std:
     sections.push_back(std::move(section));
   }
   return sections;
+}
+
+void evaluate_cuts(const std::vector<bool>& left_out, Evaluation* e) {
+  const Postproc& asked = e->scene.postproc;
+  if (asked.sections.empty() && asked.planes.empty()) return;
+  const Assembly placed = placed_assembly({e->assembly, e->last.poses.of_block, {}});
+  e->sections = evaluate_sections(*e, placed, left_out);
+  for (const CutPlane& plane : asked.planes) {
+    PlaneCut cut =
+        plane_cut(plane, e->assembly, e->last.joints, e->last.gravity, e->last.loads, e->last.frame.ties);
+    cut.polygons = cut_by_plane(placed, {cut.normal, cut.normal.dot(cut.point)});
+    e->planes.push_back(std::move(cut));
+  }
 }
 
 }  // namespace
@@ -351,7 +366,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.axes = shell_axes(e.assembly, e.shell);
   if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.supports.restraints.empty())
     e.warnings.push_back(
-        "wrenches on blocks and thrust lines count joints only, not the forces in ties and restraints");
+        "wrenches on blocks count the forces of joints only, thrust lines those of joints and ties");
 
   e.last = evaluate_frame(e, std::move(shown));
   const std::vector<bool> left_out = blocks_left_out(e);
@@ -374,10 +389,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         "thrust lines along postproc.meridians were left out: the blocks have no courses about an axis");
   e.meridians = evaluate_meridians(e);
   add_ends_of_thrust(results, &e);
-  e.sections = evaluate_sections(e, left_out);
-  for (const CutPlane& plane : scene.postproc.planes)
-    e.planes.push_back(
-        plane_cut(plane, e.assembly, e.last.joints, e.last.gravity, e.last.loads, e.last.frame.ties));
+  evaluate_cuts(left_out, &e);
   if (e.assembly.members.empty() && !scene.geometry.imported && !scene.geometry.window)  // one bond
     e.rib_over_mid_sail = rib_ratio(thrust_input(e, e.last), last_member(scene.geometry).bond);
   e.warnings.insert(e.warnings.end(), doubts.begin(), doubts.end());

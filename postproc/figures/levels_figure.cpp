@@ -13,9 +13,11 @@ namespace {
 
 using Rows = std::vector<std::vector<double>>;
 
-void add_outline(const Projection& page, const std::vector<Vec3>& corners, Rows* rows) {
-  for (const Vec3& x : corners) rows->push_back(page.row(x));
-  rows->push_back(page.row(corners.front()));
+/// The outline of a face of a block, from its corners as built.
+void add_outline(const Evaluation& e, int block, const Projection& page, const std::vector<Vec3>& corners,
+                 Rows* rows) {
+  for (const Vec3& x : corners) rows->push_back(page.row(e.last.poses.placed(block, x)));
+  rows->push_back(page.row(e.last.poses.placed(block, corners.front())));
   rows->push_back({});
 }
 
@@ -26,14 +28,14 @@ Rows outlines_of(const Evaluation& e, const Projection& page) {
     for (const SectionEvaluation& section : e.sections)
       if (section.ring >= 0)
         for (const BedFacet& f : e.shell.beds[section.ring])
-          add_outline(page, {f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a}, &rows);
+          add_outline(e, f.block, page, {f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a}, &rows);
     return rows;
   }
   for (const Part& part : e.assembly.parts) {
     if (e.assembly.blocks[part.block].fixed) continue;
     for (int face = part.face_start; face < part.face_start + part.num_faces; ++face)
       if (e.assembly.face_kinds[face] == FaceKind::intrados)
-        add_outline(page, face_points(e.assembly, face), &rows);
+        add_outline(e, part.block, page, face_points(e.assembly, face), &rows);
   }
   return rows;
 }

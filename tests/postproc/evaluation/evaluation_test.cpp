@@ -96,6 +96,28 @@ TEST(Evaluation, SectionsCutTheBlocks) {
   EXPECT_NEAR(polygon_area(e.sections[0].polygons[0].outline), 0.96, 1e-12);
 }
 
+// On a path the column stands 0.3 m aside: so do the outlines of sections and planes, as their resultants do.
+TEST(Evaluation, SectionsCutTheBlocksWhereTheyStand) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  const Vec3 aside(0.3, 0.0, 0.0);
+  for (Vec3& point : frame.contacts.point) point += aside;
+  for (Vec3& position : frame.blocks.position) position += aside;
+  Summary summary = column_summary(a);
+  summary.analysis = AnalysisType::path;
+  summary.steps = 1;
+  Case scene = column_case();
+  scene.postproc.planes = {{"middle", {0.0, 0.0, 0.8}, Vec3::UnitZ()}};
+  const Evaluation e = evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
+  ASSERT_EQ(e.sections.size(), 1u);
+  ASSERT_EQ(e.planes.size(), 1u);
+  for (const std::vector<CutPolygon>& cut : {e.sections[0].polygons, e.planes[0].polygons}) {
+    ASSERT_EQ(cut.size(), 1u);
+    EXPECT_NEAR((polygon_centroid(cut[0].outline) - Vec3(0.9, 0.4, 0.8)).norm(), 0.0, 1e-12);
+  }
+  for (const BedResultant& r : e.sections[0].resultants) EXPECT_NEAR(r.point.x(), 0.9, 1e-12);
+}
+
 TEST(Evaluation, LoadsFollowTheirTimeFunction) {
   // At the time of the frame, gravity and top load have half their values, and so do the contact forces.
   const Assembly a = test::column(3);
