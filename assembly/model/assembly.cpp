@@ -78,8 +78,10 @@ std::pair<int, int> Assembly::stack_of(int ring) const {
 
 Vec3 Assembly::outward(int ring, const Vec3& point) const {
   const Sheet* sheet = num_rings == 0 && !sheets.empty() ? &sheets.front() : sheet_of(ring);
-  const std::optional<Vec3> direction = sheet ? sheet->outward(point) : std::nullopt;
-  return direction ? *direction : outward_at(point, false);
+  if (const std::optional<Vec3> own = sheet ? sheet->outward(point) : std::nullopt) return *own;
+  for (size_t i = sheets.size(); i-- > 0;)
+    if (const std::optional<Vec3> of_vault = sheets[i].outward(point)) return *of_vault;
+  return outward_at(point, false);
 }
 
 void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {

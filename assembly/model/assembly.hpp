@@ -121,8 +121,8 @@ struct Assembly {
   Sheet axis_of(int ring) const;
   /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
   std::pair<int, int> stack_of(int ring) const;
-  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls and imported
-  /// blocks away from the z axis.
+  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls that of
+  /// the last sheet that has one, a vault on them, else, as of imported blocks, away from the z axis.
   Vec3 outward(int ring, const Vec3& point) const;
   /// Appends a face to the last part. A new part starts with `face_start = num_faces()`.
   void add_face(std::span<const int> vertex_ids, FaceKind kind);

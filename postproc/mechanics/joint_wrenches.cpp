@@ -20,6 +20,13 @@ int reference_ring(const Assembly& assembly, const Joint& joint) {
   return a.fixed ? b.ring : a.ring;
 }
 
+/// True where the lower block is of the last course of an arch that springs from the sheet of the upper one.
+bool stands_on_other_sheet(const Assembly& assembly, const JointWrench& joint) {
+  const Block &lower = assembly.blocks[joint.lower], &upper = assembly.blocks[joint.upper];
+  return !upper.fixed && upper.ring < lower.ring &&
+         assembly.sheet_of(upper.ring) != assembly.sheet_of(lower.ring);
+}
+
 /// Tangential part of the force of a joint over the largest possible one. That of a point follows from its own
 /// use; of points without shear it is taken in proportion to normal force, in joints with strength to area.
 double friction_use(const ContactTable& contacts, std::vector<int>::const_iterator begin,
@@ -137,6 +144,7 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
     joint.lower = joint.block_a;
     if (joint.patch.plane.normal.dot(shell.direction(reference_ring(assembly, joint))) < 0.0)
       std::swap(joint.upper, joint.lower);
+    joint.carried = stands_on_other_sheet(assembly, joint) ? -1 : joint.upper;
   }
   index_by_block(assembly.blocks.size(), &out);
   return out;
@@ -165,7 +173,7 @@ std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWre
   std::vector<Wrench> wrenches(assembly.blocks.size());
   for (size_t b = 0; b < wrenches.size(); ++b) wrenches[b].point = assembly.blocks[b].centroid;
   for (const JointWrench& joint : joints.wrenches)
-    if (joint.upper >= 0) wrenches[joint.upper].add(wrench_on(joint, joint.upper));
+    if (joint.carried >= 0) wrenches[joint.carried].add(wrench_on(joint, joint.carried));
   return wrenches;
 }
 

@@ -15,7 +15,10 @@ namespace cupola {
 /// pressure is the centroid of the patch, and what follows from the direction or place of its force is NaN.
 struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
-  PlanarHull patch;            ///< hull of the contact points in their mean plane
+  /// The upper block, whose course the joint carries. -1 for other kinds, and where the last course of an arch
+  /// stands on another sheet: the joint is over that course, and carries none.
+  int carried = -1;
+  PlanarHull patch;  ///< hull of the contact points in their mean plane
   /// m, of its area: mean of the contact points weighted by their areas, on which the patch's hull may differ
   /// where it is not plane or not convex. Where outwards is measured.
   Vec3 centroid = Vec3::Zero();
@@ -65,7 +68,7 @@ WytheRange wythes_of(const Assembly& assembly, const Shell& shell, const Joint& 
 Wrench wrench_on(const JointWrench& joint, int block);
 
 /// Wrench on each block from the ring below, about the block's centroid (paper, section 3.2): the sum over
-/// the bed and base joints in which it is the upper block. Zero for blocks without such a joint.
+/// the bed and base joints that carry it. Zero for blocks without such a joint.
 std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints);
 
 }  // namespace cupola

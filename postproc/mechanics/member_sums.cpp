@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
-
 #include "postproc/mechanics/ring_sums.hpp"
 
 namespace cupola {
@@ -34,12 +32,11 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
     if (ring_a == ring_b) continue;
     const int upper = ring_a > ring_b ? joint.block_a : joint.block_b;
     const Vec3 force = wrench_on(joint, upper).force;
-    const Vec3 centroid = joint.centroid - joint.centroid.dot(up) * up;
     const int top = std::max(ring_a, ring_b), base = assembly.stack_of(top).first;
     for (int k = std::max(std::min(ring_a, ring_b) + 1, base); k <= top; ++k) {
       MemberSum& sum = at(k, assembly.blocks[upper].member);
       sum.vertical_force += force.dot(up);
-      sum.outward_force -= force.dot(centroid.stableNormalized());
+      sum.outward_force -= force.dot(assembly.outward(k, joint.centroid));
     }
   }
   for (int k = 0; k < num_rings; ++k) {

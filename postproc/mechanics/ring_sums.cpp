@@ -90,20 +90,21 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0);
   for (const JointWrench& joint : joints.wrenches) {
-    if (const auto springer = on_other_stack(assembly, joint); springer && joint.upper < 0) {
+    if (const auto springer = on_other_stack(assembly, joint); springer && joint.carried < 0) {
       const int k = ring_above_support(assembly.blocks[*springer]);
       (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, *springer).force);
     }
-    if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
-    normal_force[joint.upper] += joint.normal_force;
-    area[joint.upper] += joint.patch.area;
-    const int k = ring_above_support(assembly.blocks[joint.upper]);
+    const int carried = joint.carried;
+    if (carried < 0 || assembly.blocks[carried].fixed) continue;
+    normal_force[carried] += joint.normal_force;
+    area[carried] += joint.patch.area;
+    const int k = ring_above_support(assembly.blocks[carried]);
     RingSum& ring = (*rings)[k];
     ring.height += joint.patch.area * joint.patch.centroid.z();
     ring_area[k] += joint.patch.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
-    ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, joint.upper).force);
+    ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {

@@ -38,7 +38,7 @@ std::vector<const JointWrench*> joints_on(const ThrustInput& in, int block, int 
   std::vector<const JointWrench*> joints;
   for (const int i : in.joints->of_block[block]) {
     const JointWrench& joint = in.joints->wrenches[i];
-    if ((over ? joint.lower : joint.upper) == block) joints.push_back(&joint);
+    if ((over ? joint.lower : joint.carried) == block) joints.push_back(&joint);
   }
   return joints;
 }

@@ -7,8 +7,6 @@
 #include <optional>
 #include <tuple>
 
-#include <Eigen/Geometry>
-
 #include "postproc/mechanics/bed_blocks.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 
@@ -25,18 +23,18 @@ struct Collected {
 
 using Sums = std::map<std::pair<int, WytheRange>, Collected>;  // by ring and wythes
 
-/// Adds a joint to the cuts below all rings that it crosses.
+/// Adds a joint to the cuts below all rings of the upper stack that it crosses.
 void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheRange& wythes, const Vec3& up,
                 Sums* sums) {
   const int a = ring_above_support(assembly.blocks[joint.block_a]);
   const int b = ring_above_support(assembly.blocks[joint.block_b]);
   if (a == b) return;
   const Vec3 force = wrench_on(joint, a > b ? joint.block_a : joint.block_b).force;
-  const Vec3 level = joint.centroid - joint.centroid.dot(up) * up;
-  for (int k = std::min(a, b) + 1; k <= std::max(a, b); ++k) {
+  const int top = std::max(a, b);
+  for (int k = std::max(std::min(a, b) + 1, assembly.stack_of(top).first); k <= top; ++k) {
     WytheSum& sum = (*sums)[{k, wythes}].sum;
     sum.vertical_force += force.dot(up);
-    sum.outward_force -= force.dot(level.stableNormalized());
+    sum.outward_force -= force.dot(assembly.outward(k, joint.centroid));
   }
 }
 
@@ -72,13 +70,14 @@ std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, c
   for (const JointWrench& joint : joints.wrenches) {
     const WytheRange wythes = wythes_of(assembly, shell, joint);
     add_forces(assembly, joint, wythes, up, &sums);
-    if (joint.upper < 0 || assembly.blocks[joint.upper].fixed) continue;
-    const int ring = ring_above_support(assembly.blocks[joint.upper]);
+    const int carried = joint.carried;
+    if (carried < 0 || assembly.blocks[carried].fixed) continue;
+    const int ring = ring_above_support(assembly.blocks[carried]);
     Collected& at = sums[{ring, wythes}];
     add_bed(joint, &at);
     const std::vector<BlockBed>& blocks = shell.blocks[ring];
-    const auto block = std::ranges::lower_bound(blocks, joint.upper, {}, &BlockBed::block);
-    if (!joint.negligible && block != blocks.end() && block->block == joint.upper)
+    const auto block = std::ranges::lower_bound(blocks, carried, {}, &BlockBed::block);
+    if (!joint.negligible && block != blocks.end() && block->block == carried)
       add_bearing(joint, joints, contacts, shell.beds[ring], *block, poses, &at.bearing);
   }
   std::map<int, double> totals;  // N, by ring

@@ -91,7 +91,7 @@ JointWrench bed_joint(int lower, int upper, int ring, const Vec3& at, const Vec3
   joint.block_a = lower;
   joint.block_b = upper;
   joint.lower = lower;
-  joint.upper = upper;
+  joint.upper = joint.carried = upper;
   joint.ring = ring;
   joint.kind = lower == 0 ? JointKind::base : JointKind::bed;
   joint.wrench = {at, force, Vec3::Zero()};
