@@ -18,7 +18,7 @@ constexpr const char* kSequential =
 
 std::string map_axes(const ShellMap& map) {
   return (map.vault ? "set xrange [-180:180]\nset xtics 45\nset xlabel 'azimuth (deg)'\n"
-                    : fmt::format("set xlabel '{} (m)'\n", map.arch ? "y" : "x")) +
+                    : fmt::format("set xlabel '{} (m)'\n", map.arch ? "y" : "along the wall")) +
          fmt::format(
              "set yrange [{}:{}]\nset ytics {}\nset ylabel '{}'\nunset grid\nset style fill solid 1 "
              "noborder\n"

@@ -67,7 +67,7 @@ std::string column_reference() {
              "blocks.csv, blocks_NNNN.vtu, wrenches.vtp: blocks", block_columns(),
              {{"blocks_NNNN.vtu", {kBlockMeshKeys}}, {"wrenches.vtp", {kWrenchCellKeys, kWrenchPointKeys}}}) +
          reference_of(
-             "shell.csv, shell_x.csv, shell_y.csv, shell_WYTHE.csv, shell_x_WYTHE.csv: blocks of the "
+             "shell.csv, wall.csv, arch.csv, shell_WYTHE.csv, wall_WYTHE.csv, arch_WYTHE.csv: blocks of the "
              "unrolled shell",
              shell_columns(), {}) +
          reference_of("thrust_lines.vtp: cells", line_cell_columns(),

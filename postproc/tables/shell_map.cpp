@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
@@ -35,6 +36,35 @@ const Sheet* sheet_of_wythe(const Evaluation& e, int wythe) {
   return nullptr;
 }
 
+/// A point in the frame of a sheet, or of the model if that is not turned.
+Vec3 in_frame(const Sheet& axis, const Vec3& point) {
+  return axis.turn == 0.0 ? point : axis.own(point);
+}
+
+/// Horizontal unit vector along the courses of a wall, in which the edges of its beds run, in the frame of its
+/// sheet: towards x, or y where it runs along y.
+Vec3 along_wall(const Evaluation& e, const Sheet& axis, const ShellMap& map) {
+  constexpr double kRounding = 1e-6;  // rad
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (int ring = map.first_ring; ring < map.num_rings; ++ring)
+    for (const BedFacet& f : e.shell.beds[ring]) {
+      if (!e.shell.wythes[f.block].contains(map.number)) continue;
+      const Vec3 edge = in_frame(axis, f.intrados_b) - in_frame(axis, f.intrados_a);
+      xx += edge.x() * edge.x();
+      xy += edge.x() * edge.y();
+      yy += edge.y() * edge.y();
+    }
+  double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);  // of the principal axis, -90 to 90 degrees
+  if (angle < kRounding - 0.5 * std::numbers::pi) angle += std::numbers::pi;
+  return {std::cos(angle), std::sin(angle), 0.0};
+}
+
+/// The direction in which a map without azimuths measures, in the frame of its sheet.
+Vec3 abscissa_of(const Evaluation& e, const Sheet& axis, const ShellMap& map) {
+  if (map.arch) return Vec3::UnitY();
+  return axis.thrust_lines == Sheet::ThrustLines::none ? along_wall(e, axis, map) : Vec3::UnitX();
+}
+
 /// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe:
 /// mean stress times the thickness of the wythe.
 void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
@@ -42,15 +72,14 @@ void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
     double from, to;
     double part;  // of the block's thickness
   };
+  const Vec3 abscissa = abscissa_of(e, axis, *out);
+  const auto place = [&](const Vec3& point) {
+    return out->vault ? azimuth(axis.own(point)) : abscissa.dot(in_frame(axis, point));
+  };
   std::map<std::pair<int, int>, Extent> extents;  // (block, ring)
   for (int ring = out->first_ring; ring < out->num_rings; ++ring) {
     for (const BedFacet& f : e.shell.beds[ring]) {
       if (!e.shell.wythes[f.block].contains(out->number)) continue;
-      const auto place = [&](const Vec3& point) {
-        if (out->vault) return azimuth(axis.own(point));
-        const Vec3 p = axis.turn == 0.0 ? point : axis.own(point);
-        return out->arch ? p.y() : p.x();
-      };
       const double a = place(f.intrados_a);
       const double part =
           e.shell.wythes[f.block].count() == 1 ? 1.0 : share_of(e.shell, ring, out->number) / (f.to - f.from);
@@ -94,9 +123,9 @@ const Columns<ShellBox>& shell_columns() {
       {"block", "", "index in the assembly", &B::block},
       {"ring", "", "ring of the unrolled shell", &B::ring},
       {"from", "",
-       "where the block begins: azimuth in deg, in shell_x.csv x in m, in shell_y.csv y in m; of a turned "
-       "member "
-       "its own x or y",
+       "where the block begins: azimuth in deg, in wall.csv m along the wall, in arch.csv y in m; of a "
+       "turned "
+       "member in its own frame",
        &B::from},
       {"to", "", "where the block ends", &B::to},
       {"meridional_force_N_per_m", "N/m",
@@ -113,7 +142,7 @@ const Columns<ShellBox>& shell_columns() {
 // clang-format on
 
 std::string ShellMap::table_name() const {
-  return vault ? "shell" : arch ? "shell_y" : "shell_x";
+  return vault ? "shell" : arch ? "arch" : "wall";
 }
 
 std::string ShellMap::suffix() const {

@@ -13,12 +13,12 @@ namespace cupola {
 /// A block in one ring of the unrolled shell, with its forces and utilisations.
 struct ShellBox {
   int block = 0, ring = 0;
-  double from = 0.0, to = 0.0;  ///< deg of azimuth in a vault, m along x elsewhere, in an arch along y
+  double from = 0.0, to = 0.0;  ///< deg of azimuth in a vault, m along a wall, in an arch along y
   double meridional_force = 0.0, hoop_force = 0.0;  ///< N/m, 0 if negligible
   double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
 };
 
-/// The unrolled shell, or one wythe of it: ring over azimuth, over x, or of an arch over y. In the frame of
+/// The unrolled shell, or one wythe of it: ring over azimuth, along a wall, or of an arch over y. In the frame of
 /// its sheet if that is turned or a vault, else of the model.
 struct ShellMap {
   bool vault = false;  ///< azimuths
@@ -26,9 +26,9 @@ struct ShellMap {
   std::vector<ShellBox> boxes;
   std::string wythe = {};  ///< its name; "" for a shell without wythes
   int number = 0;          ///< of the wythe, from the inside
-  bool arch = false;       ///< along y, across the arch; not along x
+  bool arch = false;       ///< along y, across the arch
   int first_ring = 0;      ///< of its sheet
-  /// The file names' beginning: "shell", "shell_x" or "shell_y".
+  /// The file names' beginning: "shell", "wall" or "arch". No two are beginnings of each other's.
   std::string table_name() const;
   std::string suffix() const;  ///< of the names of its files: "" or "_" and the wythe
 };
@@ -47,8 +47,7 @@ const Columns<ShellBox>& shell_columns();
 /// beyond.
 std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 
-/// shell.csv, or shell_x.csv for a shell without azimuths, shell_y.csv for an arch; of a wythe with its name
-/// behind.
+/// shell.csv, or wall.csv for a shell without azimuths, arch.csv for an arch; of a wythe with its name behind.
 Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes);
 
 /// The maps in the folder of a run, from the lowest sheet upwards; none if it has no rings or no equilibrium.

@@ -101,7 +101,7 @@ TEST(Wythes, HeadersShareTheLoadOfALeaf) {
   // One map per leaf; a header is in both.
   const std::vector<ShellMap> maps = shell_maps(e);
   ASSERT_EQ(maps.size(), 2u);
-  EXPECT_EQ(shell_table(maps[1], {}).name, "shell_x_front");
+  EXPECT_EQ(shell_table(maps[1], {}).name, "wall_front");
   for (const ShellMap& map : maps)
     EXPECT_EQ(std::ranges::count(map.boxes, 1, &ShellBox::ring), 10) << "headers";
 }

@@ -166,7 +166,7 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
                                        test::fresh_folder("results"));
   const ShellMap map = shell_maps(e).front();
-  EXPECT_EQ(shell_table(map, {}).name, "shell_y");
+  EXPECT_EQ(shell_table(map, {}).name, "arch");
   ASSERT_EQ(map.boxes.size(), 3u);
   for (const ShellBox& box : map.boxes) EXPECT_NEAR(box.to - box.from, 1.2, 1e-12);
   EXPECT_NE(utilisation_map(map, {}).title.find("over the arch"), std::string::npos);
@@ -193,11 +193,31 @@ TEST(ShellMaps, ShowAWallWhereItStandsInTheModel) {
   }
 }
 
+// A wall along y, or askew, had the width 0 or a shortened one.
+TEST(ShellMaps, MeasureAlongTheWall) {
+  for (const double degrees : {30.0, 90.0, 150.0}) {
+    Assembly a = test::column(3);
+    Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.9, 0.3);
+    const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180.0, Vec3::UnitZ());
+    for (std::vector<Vec3>* points : {&a.vertices, &frame.contacts.point, &frame.blocks.position})
+      for (Vec3& x : *points) x = turn * x;
+    compute_mass_properties(&a);
+    const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                         test::fresh_folder("results"));
+    const ShellMap map = shell_maps(e).front();
+    ASSERT_EQ(map.boxes.size(), 3u);
+    for (const ShellBox& box : map.boxes) {
+      EXPECT_NEAR(box.from, degrees < 100.0 ? 0.0 : -1.2, 1e-12);  // towards x, or y
+      EXPECT_NEAR(box.to, degrees < 100.0 ? 1.2 : 0.0, 1e-12);
+    }
+  }
+}
+
 TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
   const ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
   ASSERT_EQ(map.boxes.size(), 3u);
   const std::string folder = test::fresh_folder("post");
-  write_text_atomically(folder + "/shell_x.csv", to_csv(shell_table(map, map.boxes)));
+  write_text_atomically(folder + "/wall.csv", to_csv(shell_table(map, map.boxes)));
   const auto read = read_shell_maps(folder);
   ASSERT_EQ(read.size(), 1u);
   EXPECT_FALSE(read[0].vault);
@@ -224,6 +244,21 @@ TEST(ShellMaps, OfTheMembersOfRunsStandSideBySide) {
   for (size_t i = 0; i < 4; ++i) EXPECT_EQ(maps[i].name, names[i]);
   EXPECT_NE(maps[0].title.find("over the wythe base"), std::string::npos) << maps[0].title;
   EXPECT_EQ(read_shell_maps(folders[0])[1].first_ring, 3);
+}
+
+// A wythe of a dome was read back as a wall if its name was `x`, as an arch if it was `y`.
+TEST(ShellMaps, KeepTheirKindWhateverTheirWytheIsCalled) {
+  ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
+  const std::string folder = test::fresh_folder("post");
+  map.vault = true;
+  for (const char* wythe : {"x", "y", "wall", "arch"}) {
+    map.wythe = wythe;
+    const Table table = shell_table(map, map.boxes);
+    write_text_atomically(folder + "/" + table.name + ".csv", to_csv(table));
+  }
+  const std::vector<ShellMap> read = read_shell_maps(folder);
+  ASSERT_EQ(read.size(), 4u);
+  for (const ShellMap& back : read) EXPECT_TRUE(back.vault && !back.arch) << back.wythe;
 }
 
 TEST(Panels, FillTheirFrameRowByRowFromTheTop) {
