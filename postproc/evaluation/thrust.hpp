@@ -14,11 +14,21 @@ std::vector<const Sheet*> pushing_sheets(const Evaluation& evaluation);
 /// an arch at x > 0 in its own frame.
 const RingSum& base_of(const Evaluation& evaluation, const Sheet& sheet);
 
-/// N, the outward thrust of a model: that of the last stack that pushes outwards. None without one, and where
-/// a construction has not laid its lowest course.
-std::optional<double> outward_thrust(const Evaluation& evaluation);
+/// The outward thrust of a stack, of an arch at one springing.
+struct Thrust {
+  double force = 0.0;           ///< N
+  std::optional<Vec3> towards;  ///< of an arch: horizontal unit vector outwards at that springing
+};
 
-/// N, the outward thrust of an arch at its other springing; none of other shells and of a half arch.
-std::optional<double> thrust_of_other_side(const Evaluation& evaluation, const Sheet& sheet);
+/// True for two values that are equal but for a thousandth.
+bool alike(double a, double b);
+
+/// Those of the stack of a sheet: one, or both of an arch, the larger first, that at x > 0 in its own frame if
+/// they are alike. A half arch has one.
+std::vector<Thrust> thrusts_of(const Evaluation& evaluation, const Sheet& sheet);
+
+/// N, the outward thrust of a model: the largest of the last stack that pushes outwards. None without one, and
+/// where a construction has not laid its lowest course.
+std::optional<double> outward_thrust(const Evaluation& evaluation);
 
 }  // namespace cupola

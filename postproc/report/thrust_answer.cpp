@@ -31,16 +31,38 @@ std::string end_text(const RangeEnd& end, double value, const ForceRange& range)
   return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
 }
 
-/// The supports at which the thrust of the stack under a sheet counts: of an arch those at x > 0 in its own
-/// frame, to which its first course belongs.
-std::vector<Reaction> thrusting(const Evaluation& e, const Sheet& sheet) {
+/// A horizontal direction of the model: "+x", "-y", "30° from x".
+std::string direction_text(const Vec3& direction) {
+  constexpr double kAlong = 1.0 - 1e-12;
+  if (std::abs(direction.x()) > kAlong) return direction.x() > 0.0 ? "+x" : "-x";
+  if (std::abs(direction.y()) > kAlong) return direction.y() > 0.0 ? "+y" : "-y";
+  return fmt::format("{:.4g}° from x", azimuth(direction) * kDegrees);
+}
+
+bool differ(const std::vector<Thrust>& thrusts) {
+  return thrusts.size() > 1 && !alike(thrusts[0].force, thrusts[1].force);
+}
+
+/// "12.3 kN", or "12.3 kN and 4.1 kN".
+std::string values_text(const std::vector<Thrust>& thrusts) {
+  return force_text(thrusts[0].force) + (differ(thrusts) ? " and " + force_text(thrusts[1].force) : "");
+}
+
+/// "at the springings towards +x and -x"; "" for one value.
+std::string sides_text(const std::vector<Thrust>& thrusts) {
+  if (!differ(thrusts)) return "";
+  return fmt::format("at the springings towards {} and {}", direction_text(*thrusts[0].towards),
+                     direction_text(*thrusts[1].towards));
+}
+
+/// The supports on which the stack of a sheet pushes, of an arch those on one side.
+std::vector<Reaction> thrusting(const Evaluation& e, const Sheet& sheet, const Thrust& thrust) {
   const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
-  const Vec3 own_x(std::cos(sheet.turn), std::sin(sheet.turn), 0.0);
   std::vector<Reaction> at;
   for (const Reaction& r : e.reactions) {
     if (r.ring < first || r.ring >= end) continue;
-    const double x = own_x.dot(e.assembly.blocks[r.block].centroid - sheet.origin);
-    if (sheet.thrust_lines != Sheet::ThrustLines::one || x > 0.0) at.push_back(r);
+    const Vec3 from_axis = e.assembly.blocks[r.block].centroid - sheet.origin;
+    if (!thrust.towards || thrust.towards->dot(from_axis) > 0.0) at.push_back(r);
   }
   return at;
 }
@@ -83,16 +105,17 @@ const RingSum* springing_of(const Evaluation& e, const Sheet& sheet) {
   return lowest < none ? &e.rings[lowest] : nullptr;
 }
 
-std::string at_level(const char* name, const RingSum& cut) {
+std::string at_level(const std::string& name, const RingSum& cut) {
   constexpr double kShown = 1e-4;  // m
   return fmt::format("at the {}, z = {:g} m", name, std::round(cut.height / kShown) * kShown + 0.0);
 }
 
-/// "at the springing, z = 0 m", or "at the base, z = -4.5 m; at the springing, z = 0 m, 21.3 kN".
-std::string level_text(const Evaluation& e, const Sheet& sheet) {
+/// "at the springing, z = 0 m", or "at the base, z = -4.5 m; at the springing, z = 0 m, 21.3 kN". The courses
+/// of an arch are counted from one side: where the sides differ, the other value is not known.
+std::string level_text(const Evaluation& e, const Sheet& sheet, bool differ) {
   const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
   if (springing == &base) return at_level("springing", base);
-  if (!springing) return at_level("base", base);
+  if (!springing || differ) return at_level("base", base);
   return fmt::format("{}; {}, {}", at_level("base", base), at_level("springing", *springing),
                      force_text(springing->radial_thrust));
 }
@@ -141,14 +164,19 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
     detail +=
         fmt::format("; the stiffness of the joints selects {}{}", range_number(*range.chosen, range), unit);
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
+  Thrust side;  // that the range counts
+  if (!pushing.empty() && pushing.front()->thrust_lines == Sheet::ThrustLines::one)
+    side.towards = pushing.front()->towards(0.0);
   const double length =
-      pushing.empty() ? 0.0 : length_of(e, *pushing.front(), thrusting(e, *pushing.front()));
+      pushing.empty() ? 0.0 : length_of(e, *pushing.front(), thrusting(e, *pushing.front(), side));
   if (length > 0.0 && std::isfinite(least(range)) && std::isfinite(greatest(range)))
     detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(range) / length),
                           force_text(greatest(range) / length), length_text(length));
   if (!pushing.empty() && !e.rings.empty()) {
     const RingSum& base = base_of(e, *pushing.front());
-    detail += "; " + at_level(springing_of(e, *pushing.front()) == &base ? "springing" : "base", base);
+    std::string level = springing_of(e, *pushing.front()) == &base ? "springing" : "base";
+    if (side.towards) level += " towards " + direction_text(*side.towards);
+    detail += "; " + at_level(level, base);
   }
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
@@ -161,10 +189,6 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
           detail};
 }
 
-bool alike(double a, double b) {
-  return std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b));
-}
-
 /// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
 std::string spread_over(const std::vector<Reaction>& supports) {
   if (supports.size() < 2) return "";
@@ -175,15 +199,14 @@ std::string spread_over(const std::vector<Reaction>& supports) {
                      lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
 }
 
-/// The thrust per metre of support; of an arch, `other` is that at its second springing.
-std::string along_supports(const Evaluation& e, const Sheet& shell, double thrust,
-                           const std::optional<double>& other) {
+/// The thrust per metre of support.
+std::string along_supports(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
   // Joints of a smaller extent do not have the length of the supports.
   if (e.summary.critical && e.summary.critical->parameter == "joint_extent") return "";
-  const double most = other ? std::max(thrust, *other) : thrust;
-  const std::string along = per_metre(most, length_of(e, shell, thrusting(e, shell)));
-  if (along.empty() || !other) return along;
-  return (alike(thrust, *other) ? "on each side, " : "at most ") + along;
+  const Thrust& most = thrusts.front();
+  const std::string along = per_metre(most.force, length_of(e, sheet, thrusting(e, sheet, most)));
+  if (along.empty() || thrusts.size() == 1) return along;
+  return (differ(thrusts) ? "at most " : "on each side, ") + along;
 }
 
 /// The thrusts of further stacks.
@@ -191,10 +214,11 @@ std::vector<std::string> thrusts_of_others(const Evaluation& e, const std::vecto
   constexpr size_t kMost = 5;  // stacks
   std::vector<std::string> out;
   for (size_t i = 1; i < std::min(pushing.size(), kMost); ++i) {
-    const double other = base_of(e, *pushing[i]).radial_thrust;
-    const std::string along = per_metre(other, length_of(e, *pushing[i], thrusting(e, *pushing[i])));
-    out.push_back(
-        fmt::format("of {} {}{}{}", pushing[i]->name, force_text(other), along.empty() ? "" : ", ", along));
+    const std::vector<Thrust> others = thrusts_of(e, *pushing[i]);
+    std::string text = fmt::format("of {} {}", pushing[i]->name, values_text(others));
+    if (differ(others)) text += fmt::format(" {}", sides_text(others));
+    const std::string along = along_supports(e, *pushing[i], others);
+    out.push_back(text + (along.empty() ? "" : ", ") + along);
   }
   if (pushing.size() > kMost) out.emplace_back("of the others in rings.csv");
   return out;
@@ -215,30 +239,28 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   const std::optional<double> found = at_rest(e) ? outward_thrust(e) : std::nullopt;
   if (!found || (*found == 0.0 && is_stage(e.last.frame.role)))
     return std::nullopt;  // the course laid last rests on others
-  const double thrust = *found;
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
   const Sheet& shell = *pushing.front();
   const bool alone = pushing.size() == 1;
-  const std::vector<Reaction> supports = thrusting(e, shell);
+  const std::vector<Thrust> thrusts = thrusts_of(e, shell);
+  const std::vector<Reaction> supports = thrusting(e, shell, thrusts.front());
   std::vector<std::string> details;
   const auto add = [&details](std::string text) {
     if (!text.empty()) details.push_back(std::move(text));
   };
-  const std::optional<double> other = thrust_of_other_side(e, shell);
-  const bool differ = other && !alike(thrust, *other);
-  if (thrust < 0.0 || (differ && *other < 0.0)) add("negative: inwards");
-  std::string along = along_supports(e, shell, thrust, other);
+  if (thrusts.front().force < 0.0 || (differ(thrusts) && thrusts.back().force < 0.0))
+    add("negative: inwards");
+  std::string along = along_supports(e, shell, thrusts);
   if (!alone) along = fmt::format("of {}{}{}", shell.name, along.empty() ? "" : ", ", along);
-  if (differ) add("at its springings, the one in the direction of x first");
+  add(sides_text(thrusts));
   add(std::move(along));
-  add(level_text(e, shell));
+  add(level_text(e, shell, differ(thrusts)));
   add(spread_over(supports));
   if (alone && e.summary.weight_N > 0.0)
-    add(fmt::format("{:.3g} of the weight", thrust / e.summary.weight_N));
+    add(fmt::format("{:.3g} of the weight", thrusts.front().force / e.summary.weight_N));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(doubt_of(e));
-  return KeyNumber{"Outward thrust", force_text(thrust) + (differ ? " and " + force_text(*other) : ""),
-                   fmt::format("{}", fmt::join(details, "; "))};
+  return KeyNumber{"Outward thrust", values_text(thrusts), fmt::format("{}", fmt::join(details, "; "))};
 }
 
 }  // namespace cupola
