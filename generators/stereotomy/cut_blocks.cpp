@@ -189,12 +189,12 @@ std::vector<CutBody> bodies_of(const Storey& storey, std::span<const Storey> sto
 void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutOptions& options,
                 Assembly* assembly) {
   const SurfaceMap& surface = shell.surface;
-  const std::vector<double>& cuts = shell.bond.cuts_of(0);
   const size_t first_vertex = assembly->vertices.size();
   const MemberStart start{assembly->blocks.size(), assembly->parts.size()};
   const int first_face = assembly->num_faces();
   const CellGrid grid = make_cell_grid(surface, shell.bond, shell.stage_rings);
   GridPoints points(grid, options.imperfections, shell.placement);
+  const std::vector<double> cuts = points.cuts_at_supports();
   const bool stands = surface.webs == 0;  // on supports of its own beds, not of the finished groin vault
   if (stands && surface.first_bed_held && !surface.first_row_held)
     add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);

@@ -86,15 +86,39 @@ double GridPoints::metres_per_abscissa(int bed, int cut) const {
   return (grid_.surface.intrados(bed, b) - grid_.surface.intrados(bed, a)).norm() / (b - a);
 }
 
-Vec3 GridPoints::point(double bed_shift, double cut_shift, int row, int bed, int cut, int layer) const {
+std::vector<double> GridPoints::cuts_at_supports() const {
+  std::vector<double> cuts = grid_.bond.cuts_of(0);
+  for (size_t i = 0; i < cuts.size(); ++i) cuts[i] += cut_noise_[i % static_cast<size_t>(num_columns_)];
+  return cuts;
+}
+
+Plane GridPoints::head_plane(int row, int top, int cut, double shift) const {
+  const SurfaceMap& surface = grid_.surface;
   const int column = grid_.wrap(row, cut);
+  const double a = grid_.abscissa(row, column) + cut_noise_[column] + shift;
+  const Vec3 foot = surface.intrados(row, a), up = surface.intrados(top, a) - foot;
+  const Vec3 normal = up.cross(surface.extrados(row, a) - foot).normalized();
+  return {normal, normal.dot(foot)};
+}
+
+Vec3 GridPoints::point(double bed_shift, const Plane* head, int towards, int row, int bed, int cut,
+                       int layer) const {
   const double b = bed + bed_noise_[bed] + bed_shift;
-  const double a = grid_.abscissa(row, column) + cut_noise_[column] + cut_shift;
-  Vec3 p = grid_.surface.point(b, a, layer);
-  if (noise_ == 0.0) return p;
-  const Vec3 across = grid_.surface.extrados(b, a) - grid_.surface.intrados(b, a);
-  const size_t corner = (static_cast<size_t>(bed) * num_columns_ + column) * num_layers_ + layer;
-  return p + skin_noise_[corner] * across.normalized();
+  const auto at_cut = [&](int c, int l) {
+    const int column = grid_.wrap(row, c);
+    return grid_.surface.point(b, grid_.abscissa(row, column) + cut_noise_[column], l);
+  };
+  const auto at = [&](int l) -> Vec3 {
+    const Vec3 from = at_cut(cut, l);
+    if (!head) return from;
+    const Vec3 chord = at_cut(towards, l) - from;
+    return from + (head->offset - head->normal.dot(from)) / head->normal.dot(chord) * chord;
+  };
+  if (noise_ == 0.0) return at(layer);
+  const Vec3 across = at(grid_.num_wythes) - at(0);
+  const size_t corner =
+      (static_cast<size_t>(bed) * num_columns_ + grid_.wrap(row, cut)) * num_layers_ + layer;
+  return at(layer) + skin_noise_[corner] * across.normalized();
 }
 
 bool GridPoints::bulges_along_rising_diagonal(int row, int cut) const {
@@ -126,7 +150,7 @@ void GridPoints::make_shared(int first_layer, Assembly* assembly) {
     for (int bed = first_bed; bed <= last_bed; ++bed)
       for (int column = 0; column < columns; ++column)
         for (int layer = 0; layer < num_layers_; ++layer)
-          append(point(0.0, 0.0, row, bed, column, layer), bed, layer, assembly);
+          append(point(0.0, nullptr, column, row, bed, column, layer), bed, layer, assembly);
   };
   if (!grid_.bond.by_course()) return append_beds(0, 0, grid_.num_rows);
   for (int row = 0; row < grid_.num_rows; row += rows) {
@@ -144,11 +168,14 @@ void GridPoints::start_block(int bond_block) {
   const auto opening = [&](const Vec3& from, const Vec3& to) {  // m
     return 0.5 * gap_ * uniform(gap_field_, 0.5 * (from + to));
   };
-  sides_ = {row, top, left, right, 0, 0, 0, 0};
+  sides_ = {row, top, left, right, 0, 0, {}, {}};
   sides_.lower_gap = opening(corner(row, left), corner(row, right)) / metres_per_bed(row + 1, left);
   sides_.upper_gap = opening(corner(top, left), corner(top, right)) / metres_per_bed(top, left);
-  sides_.left_gap = opening(corner(row, left), corner(top, left)) / metres_per_abscissa(row, left);
-  sides_.right_gap = opening(corner(row, right), corner(top, right)) / metres_per_abscissa(row, right - 1);
+  const double left_gap = opening(corner(row, left), corner(top, left)) / metres_per_abscissa(row, left);
+  const double right_gap =
+      opening(corner(row, right), corner(top, right)) / metres_per_abscissa(row, right - 1);
+  sides_.left_head = head_plane(row, top, left, left_gap);
+  sides_.right_head = head_plane(row, top, right, -right_gap);
 }
 
 int GridPoints::vertex(int row, int bed, int cut, int layer, Assembly* assembly) {
@@ -164,10 +191,9 @@ int GridPoints::vertex(int row, int bed, int cut, int layer, Assembly* assembly)
   const double bed_shift = bed == sides_.lower   ? sides_.lower_gap
                            : bed == sides_.upper ? -sides_.upper_gap
                                                  : 0.0;
-  const double cut_shift = cut == sides_.left    ? sides_.left_gap
-                           : cut == sides_.right ? -sides_.right_gap
-                                                 : 0.0;
-  append(point(bed_shift, cut_shift, row, bed, cut, layer), bed, layer, assembly);
+  const bool is_left = cut == sides_.left;
+  const Plane* head = is_left ? &sides_.left_head : cut == sides_.right ? &sides_.right_head : nullptr;
+  append(point(bed_shift, head, is_left ? cut + 1 : cut - 1, row, bed, cut, layer), bed, layer, assembly);
   return it->second;
 }
 

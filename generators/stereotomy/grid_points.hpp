@@ -29,7 +29,8 @@ class Random {
 ///   and extrados there. That line lies in the bed and in the head plane, so both stay plane and joints stay
 ///   closed. The first bed, and the last bed of an arch or drum, stay where they are.
 /// - Gaps give every block its own corners. Its beds and heads move inwards by random fractions of gap / 2,
-///   measured on the intrados.
+///   measured on the intrados; heads along the chords of the grid, so that the faces of a curved bed keep the
+///   planes that the blocks below and above have.
 /// - Courses with cuts of their own have corners of their own.
 /// - With a correlation length the random numbers are functions of place: of the middle of a bed or head on
 ///   the intrados, of its end on the first cut or bed where a whole bed or head plane moves, and of each
@@ -44,6 +45,8 @@ class GridPoints {
   /// Where skins are not plane: true if the layers of a cell bulge outwards along the diagonal from its lower
   /// left to its upper right corner, false if along the other.
   bool bulges_along_rising_diagonal(int row, int cut) const;
+  /// The cuts of the first course, moved by the noise: the supports meet its blocks there.
+  std::vector<double> cuts_at_supports() const;
   /// Appends the shared vertices; call once, before the first block. If the shell has wythes, the layers of
   /// all vertices are counted from `first_layer`.
   void make_shared(int first_layer, Assembly* assembly);
@@ -55,7 +58,10 @@ class GridPoints {
 
  private:
   void append(const Vec3& point, int bed, int layer, Assembly* assembly) const;
-  Vec3 point(double bed_shift, double cut_shift, int row, int bed, int cut, int layer) const;
+  /// The plane of the head at a cut, moved by `shift` along the abscissa.
+  Plane head_plane(int row, int top, int cut, double shift) const;
+  /// At a cut, or where the chord from there to the cut `towards` meets a head that has moved.
+  Vec3 point(double bed_shift, const Plane* head, int towards, int row, int bed, int cut, int layer) const;
   double metres_per_bed(int bed, int cut) const;
   double metres_per_abscissa(int bed, int cut) const;
   double uniform(const std::optional<RandomField>& field, const Vec3& place);    ///< [0, 1)
@@ -73,8 +79,9 @@ class GridPoints {
   std::vector<double> bed_noise_, cut_noise_, skin_noise_;  // bed units, abscissa units, m
 
   struct Sides {
-    int lower, upper, left, right;                     // beds and cuts of the block
-    double lower_gap, upper_gap, left_gap, right_gap;  // bed units, abscissa units
+    int lower, upper, left, right;  // beds and cuts of the block
+    double lower_gap, upper_gap;    // bed units
+    Plane left_head, right_head;
   } sides_{};
   std::map<std::tuple<int, int, int>, int> own_;  // corners of the block: (bed, cut, layer) -> vertex
 };

@@ -64,7 +64,7 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
     const std::string failed = failures(one.members, "member");
     good = good && failed.empty();
     if (!failed.empty())
-      sentences.push_back(fmt::format("{}: {} failed: {}.", one.name, failed, endings(one.members)));
+      sentences.push_back(fmt::format("{}: {} failed; in all {}.", one.name, failed, endings(one.members)));
     if (!one.runs->design)
       if (std::string governs = governing_member(one.runs->samples.keys, one.members); !governs.empty())
         sentences.push_back(std::move(governs));

@@ -123,6 +123,14 @@ std::string first_names(const std::vector<std::string>& names, const char* betwe
       "{}{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(shown), between), more);
 }
 
+/// "; dome/0001: blocks 0 and 10 overlap": of the first run that gave a reason, "" if none did.
+std::string first_reason(const std::vector<std::string>& missing, const std::string& runs_folder) {
+  for (const std::string& name : missing)
+    if (const std::string error = error_of_run(runs_folder, name); !error.empty())
+      return fmt::format("; {}: {}", name, error);
+  return "";
+}
+
 ExitCode measure(const Study& study, const StudyRequest& request) {
   RunCache runs(request.runs_folder);
   std::vector<std::string> missing;
@@ -131,8 +139,9 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
   StudyPage page(study.title.empty() ? study.name : study.title, request.output_folder);
   std::string text;
   if (study.answers.verdict.empty() && !missing.empty())
-    page.add(fmt::format("<p class=\"warning\"><strong>Not run:</strong> {}.</p>\n",
-                         markup_text(first_names(missing, ", "))));
+    page.add(
+        fmt::format("<p class=\"warning\"><strong>Not run:</strong> {}.</p>\n",
+                    markup_text(first_names(missing, ", ") + first_reason(missing, request.runs_folder))));
   text += add_answers(study.answers, study.left_out, request.runs_folder, runs, &page);
   if (!study.sweep.empty()) text += add_sweep(study.sweep, study.runs, request.runs_folder, &page);
   text += add_ensembles(study.ensembles, request.runs_folder, &page);

@@ -8,6 +8,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/results.hpp"
+#include "postproc/studies/study_answers.hpp"
 #include "postproc/studies/sweep.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "postproc/tables/range_values.hpp"
@@ -58,12 +59,15 @@ std::string ending_of(RunFiles& run) {
   return in_time && status == to_string(Status::moving) ? "not at rest" : status;
 }
 
-/// The last stage that a missing member completed, and what to do.
-std::string progress(const std::string& folder) {
-  const auto there = [&](const char* file) { return std::filesystem::exists(folder + "/" + file); };
+/// The last stage that a missing member completed, and why it went no further or what to do.
+std::string progress(const std::string& runs_folder, const std::string& name) {
+  const auto there = [&](const char* file) {
+    return std::filesystem::exists(fmt::format("{}/{}/{}", runs_folder, name, file));
+  };
   if (there("results/checkpoint")) return "interrupted: repeat the command to resume";
-  if (there("assembly.vtu")) return "no results: see the output of the run";
-  return "no assembly: see the output of the run";
+  const std::string error = error_of_run(runs_folder, name);
+  return fmt::format("{}: {}", there("assembly.vtu") ? "no results" : "no assembly",
+                     error.empty() ? "see the output of the run" : error);
 }
 
 /// Adds what joints with strength use of it, if the members have strength.
@@ -151,7 +155,7 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
       for (const Table::Column& column : numbers) row.push_back(result_of(run, column.key));
     } else {
       row.emplace_back(std::string(kMissing));
-      row.emplace_back(progress(folder));
+      row.emplace_back(progress(runs_folder, member.name));
       row.resize(t.columns.size(), std::string());
     }
     CUPOLA_ASSERT(row.size() == t.columns.size());

@@ -275,7 +275,8 @@ TEST(EnsemblePage, MembersWithoutAVerdictWidenTheInterval) {
   ensembles.erase(ensembles.begin());
   StudyPage page("One", scratch.file("page"));
   const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
-  EXPECT_NE(text.find("b: 1 of 8 members failed: 5 stable, 2 moving, 1 missing."), std::string::npos) << text;
+  EXPECT_NE(text.find("b: 1 of 8 members failed; in all 5 stable, 2 moving, 1 missing."), std::string::npos)
+      << text;
   // 2 of 8: 3.19 to 65.1 %; 3 of 8: 8.52 to 75.5 %.
   EXPECT_NE(text.find("2 of 8 members fall, 1 without a verdict: probability 28.6 % (3.19 to 75.5 %)."),
             std::string::npos)

@@ -37,6 +37,10 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   EXPECT_EQ(to_display(table.rows[1][3]), "no results: see the output of the run");
   EXPECT_EQ(to_display(table.rows[2][3]), "interrupted: repeat the command to resume");
   EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
+  scratch.write(members[3].name + "/errors.txt",
+                "cupola-generate: error: joints.friction = x: not a number\n");
+  EXPECT_EQ(to_display(sweep_table({"joints.friction"}, members, scratch.folder()).rows[3][3]),
+            "no assembly: joints.friction = x: not a number");
 }
 
 // "moving" of a motion in time is no verdict, unlike that of statics.
