@@ -33,7 +33,7 @@ constexpr double kPasses = 4.0;
 /// Time under Coulomb's law over that of the associated law, whose solution comes first, far from collapse.
 /// Measured on the models of the paper at friction 0.4 and 0.15: 1.1 to 1.9.
 constexpr double kCoulomb = 2.0;
-constexpr int kTimedSteps = 3;         // of a motion; the last one represents all that follow
+constexpr int kTimedSteps = 3;         // of a motion, or equilibria of a path
 constexpr double kTimingBudget = 5.0;  // s of processor time, after which no further step is timed
 
 /// The Hessian in which every contact sticks.
@@ -183,6 +183,27 @@ void estimate_motion(const Case& scene, const Assembly& assembly, const ContactP
   cost->seconds = motion;
 }
 
+/// The first equilibria of a path, at time 0 and after two steps; these represent all that follow. Under
+/// Coulomb's law a step in which joints slide takes tens of times as many iterations as the static solve.
+void estimate_path(const Case& scene, const Assembly& assembly, CostEstimate* cost) {
+  const double started = cpu_seconds();
+  double share = 0.0, at_rest = 0.0;  // of the path; s, of the equilibrium at time 0
+  int equilibria = 0;
+  AnalysisSinks sinks;
+  sinks.progress = [&](double done, const std::string&) {
+    share = done;
+    if (equilibria++ == 0) at_rest = cpu_seconds() - started;
+  };
+  sinks.interrupted = [&] { return equilibria == kTimedSteps || cpu_seconds() - started > kTimingBudget; };
+  bool goes_on = false;
+  add_time(
+      "the first steps of the path", [&] { goes_on = !run_analysis(scene, assembly, sinks); }, cost);
+  cost->basis = counted(equilibria, "equilibrium", "equilibria") + fmt::format(", {:.3g} s", cost->seconds);
+  if (!goes_on) return;
+  const double steps = analysis_traits(scene.analysis.type).num_solves(scene, assembly) - 1.0;
+  cost->seconds += share > 0.0 ? (1.0 - share) / share * (cost->seconds - at_rest) : steps * at_rest;
+}
+
 }  // namespace
 
 CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
@@ -191,6 +212,8 @@ CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const Co
   CostEstimate cost;
   if (analysis_traits(scene.analysis.type).steps_in_time)
     estimate_motion(scene, assembly, problem, &cost);
+  else if (analysis_traits(scene.analysis.type).like_steps)
+    estimate_path(scene, assembly, &cost);
   else
     estimate_static(scene, assembly, problem, &cost);
   cost.bytes = static_cast<double>(peak_memory_bytes());

@@ -181,13 +181,13 @@ std::string describe_path(const Case& scene) {
 
 // clang-format off
 constexpr std::array<AnalysisTraits, 6> kAnalysisTable{{
-    // type                   in time  many   one solve  state of the residuals                run           solves            in words
-    {AnalysisType::static_,   false,   false, true,      "",                                   run_as_built, one_solve,        describe_static, static_features},
-    {AnalysisType::dynamic,   true,    true,  false,     "",                                   run_dynamic,  one_solve,        describe_motion, motion_features},
-    {AnalysisType::staged,    false,   true,  false,     "",                                   run_staged,   solves_of_stages, describe_stages, no_features},
-    {AnalysisType::limit,     false,   false, false,     " at the stable end of the bracket",  run_limit,    solves_of_limit,  describe_limit,  no_features},
-    {AnalysisType::range,     false,   false, false,     "",                                   run_range,    solves_of_range,  describe_range,  range_features},
-    {AnalysisType::path,      false,   true,  false,     "",                                   run_path,     solves_of_path,   describe_path,   no_features},
+    // type                   in time  many   like   one solve  state of the residuals                run           solves            in words
+    {AnalysisType::static_,   false,   false, false, true,      "",                                   run_as_built, one_solve,        describe_static, static_features},
+    {AnalysisType::dynamic,   true,    true,  true,  false,     "",                                   run_dynamic,  one_solve,        describe_motion, motion_features},
+    {AnalysisType::staged,    false,   true,  false, false,     "",                                   run_staged,   solves_of_stages, describe_stages, no_features},
+    {AnalysisType::limit,     false,   false, false, false,     " at the stable end of the bracket",  run_limit,    solves_of_limit,  describe_limit,  no_features},
+    {AnalysisType::range,     false,   false, false, false,     "",                                   run_range,    solves_of_range,  describe_range,  range_features},
+    {AnalysisType::path,      false,   true,  true,  false,     "",                                   run_path,     solves_of_path,   describe_path,   no_features},
 }};
 // clang-format on
 static_assert(kAnalysisTable.size() == enum_names(AnalysisType{}).size());

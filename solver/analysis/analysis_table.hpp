@@ -12,6 +12,7 @@ struct AnalysisTraits {
   AnalysisType type;
   bool steps_in_time;  ///< integrates a motion, which needs no fixed block
   bool many_states;    ///< steps, stages or equilibria: has a progress bar, and residuals of the worst state
+  bool like_steps;     ///< of like cost, so that the first ones tell that of a run
   bool one_solve;      ///< one static solve, which passes its contacts on, and may be that of one sector
   const char* state;   ///< to which residuals belong, if not to the only one or the worst: " at ..."
   std::optional<Summary> (*run)(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks);

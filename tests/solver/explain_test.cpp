@@ -118,6 +118,28 @@ TEST(ExplainStatic, SaysWhatCoulombsLawCosts) {
   EXPECT_NE(text.find(phrase), std::string::npos) << text;
 }
 
+// Joints that slide under Coulomb's law take tens of times the iterations of the first static solve, so that a path
+// is estimated from equilibria of its own: time 0 and two steps, which stand for all others.
+TEST(ExplainPath, TimesItsFirstEquilibria) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
+  Case scene = moving_wall();
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  SupportMove move;
+  move.displacement = Vec3(1e-3, 0, 0);
+  move.time = RampInTime{.from = 0.0, .to = 1.0, .start = 0.0, .duration = 1.0};
+  scene.supports.moves = {move};
+  const auto cost_of = [&](int steps) {
+    scene.analysis.path.steps = steps;
+    return explain_model(scene, wall).cost;
+  };
+  EXPECT_EQ(cost_of(1).basis.find("2 equilibria, "), 0u) << cost_of(1).basis;
+  const CostEstimate few = cost_of(10), many = cost_of(1000);
+  EXPECT_EQ(few.basis.find("3 equilibria, "), 0u) << few.basis;
+  EXPECT_GT(many.seconds, 10.0 * few.seconds) << "a hundred times as many steps";
+  EXPECT_EQ(many.left_out, "");
+}
+
 TEST(ExplainMotion, RefusesWhatTheRunRefuses) {
   const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
   Case varying = moving_wall();
