@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -63,6 +65,24 @@ const CaseNode::Entry* CaseNode::find_entry(std::string_view key) const {
 const CaseNode* CaseNode::find(std::string_view key) const {
   const Entry* entry = find_entry(key);
   return entry ? &entry->value : nullptr;
+}
+
+FileLocation place_of(const CaseNode& map, std::string_view key) {
+  const CaseNode* node = &map;
+  while (!key.empty()) {
+    const std::string_view word = key.substr(0, key.find_first_of(".[]"));
+    key.remove_prefix(std::min(word.size() + 1, key.size()));
+    if (word.empty()) continue;  // between `]` and `.`
+    const CaseNode* next = node->find(word);
+    size_t index = 0;
+    if (node->kind == CaseNode::Kind::list &&
+        std::from_chars(word.data(), word.data() + word.size(), index).ec == std::errc() &&
+        index < node->items.size())
+      next = &node->items[index];
+    if (!next) break;
+    node = next;
+  }
+  return node->where;
 }
 
 std::string shown(std::string_view text) {

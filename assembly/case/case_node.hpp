@@ -36,6 +36,10 @@ std::string shown(std::string_view text);
 /// The same for any node: `[...]` for a list, `{...}` for a map.
 std::string shown(const CaseNode& node);
 
+/// Position of the value of a key such as `loads.forces[2].block` below the map, or of the innermost section
+/// or item on the way to it that the file gives.
+FileLocation place_of(const CaseNode& map, std::string_view key);
+
 /// The map as YAML text, which reads back as the same tree.
 std::string to_yaml(const CaseNode& map);
 

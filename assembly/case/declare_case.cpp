@@ -68,6 +68,19 @@ void expect_face_loads(const Section& s, const Case& the_case) {
                   "in kN/m2? Loads are in N/m2", "too many digits? 1e6 N/m2 is 1 MPa"});
 }
 
+/// Pulls are at right angles to gravity: an inclined direction asks for another load than it would get.
+void declare_pull_rule(Section& s, const Case& the_case) {
+  using enum LimitSearch::Parameter;
+  const LimitSearch& limit = the_case.analysis.limit;
+  if (the_case.analysis.type != AnalysisType::limit ||
+      (limit.parameter != tilt && limit.parameter != acceleration))
+    return;
+  constexpr double kRounding = 1e-3;  // of directions with four digits
+  const double along_gravity = limit.direction.dot(the_case.loads.gravity.normalized());
+  s.rule(limit.direction.norm() > 0.0 && std::abs(along_gravity) <= kRounding * limit.direction.norm(),
+         "analysis.limit.direction", "must be horizontal, at right angles to loads.gravity");
+}
+
 /// A path follows what changes with time.
 void declare_path_rule(Section& s, const Case& the_case) {
   if (the_case.analysis.type != AnalysisType::path || the_case.supports.base_motion) return;
@@ -105,6 +118,7 @@ void declare_case(Section& s, Case& the_case) {
          "restraints are not part of the stages of construction: remove supports.restraints");
   declare_heat_rules(s, the_case);
   declare_path_rule(s, the_case);
+  declare_pull_rule(s, the_case);
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);

@@ -176,7 +176,8 @@ void Section::rule(bool holds, const std::string& key, const std::string& text) 
   if (holds || describing()) return;
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
   if (node) fail(key, *node, text);
-  throw InputError(where_, fmt::format("{}: {}{}", path_of(key), text, misspelling_of(key)));
+  throw InputError(node_ ? place_of(*node_, key) : where_,
+                   fmt::format("{}: {}{}", path_of(key), text, misspelling_of(key)));
 }
 
 void Section::close(const Section& child) {

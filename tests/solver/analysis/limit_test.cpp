@@ -158,12 +158,6 @@ TEST(Thickness, IsScaledAboutTheMiddleSurface) {
   EXPECT_THROW(with_thickness(testing::box_on_floor({1, 1, 1}), 0.5), InputError);
 }
 
-TEST(Limit, RefusesADirectionAlongGravity) {
-  Case scene = limit_case(LimitSearch::Parameter::tilt, 1, 2, 0.5);
-  scene.analysis.limit.direction = Vec3(0, 0, 1);
-  EXPECT_THROW(run(scene, testing::box_on_floor({1, 1, 1})), InputError);
-}
-
 // The case itself stands on the level, as it does at both ends.
 TEST(Limit, ReportsABracketWithoutACriticalValue) {
   const Summary summary =
