@@ -83,14 +83,10 @@ Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
 Case resolved_case(const Case& input, const Assembly& assembly) {
   Case resolved = input;
   resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
+  resolve_block_names(assembly, &resolved.analysis.range.quantities);
   applied_loads(resolved.loads, assembly);
-  for (const PairTie& tie : resolved.ties.pairs)
-    for (const int block : {tie.block_a.number, tie.block_b.number})
-      check_block_exists(assembly, block, "ties.pairs");
-  for (const Restraint& restraint : resolved.supports.restraints)
-    check_block_exists(assembly, restraint.block, "supports.restraints");
-  for (const SupportMove& move : resolved.supports.moves)
-    blocks_of_region(move.region, assembly, true, "supports.moves");
+  for (size_t i = 0; i < resolved.supports.moves.size(); ++i)
+    blocks_of_region(resolved.supports.moves[i].region, assembly, true, fmt::format("supports.moves[{}]", i));
   for (size_t i = 0; i < resolved.loads.heat.size(); ++i)
     blocks_of_region(resolved.loads.heat[i].region, assembly, false, fmt::format("loads.heat[{}]", i));
   return resolved;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/key_places.hpp"
 #include "assembly/export/export.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/atomic_file.hpp"
@@ -99,13 +100,14 @@ PreparedRun prepare(int argc, char** argv) {
   static std::shared_ptr<Blocks> last;
   if (!last || !have_same_blocks(*scene, *last->scene)) {
     auto blocks = std::make_shared<Blocks>(Blocks{scene, {}, {}});
-    blocks->assembly = generate(*scene, &blocks->report);
+    blocks->assembly = with_places_of_keys(*scene, [&] { return generate(*scene, &blocks->report); });
     last = std::move(blocks);
   }
 
   // 4. Write the files. The process is that of this run alone, which may take the blocks.
   return [line, scene, files, blocks = last] {
-    const Assembly assembly = generate_again(*scene, std::move(blocks->assembly), blocks->report);
+    const Assembly assembly = with_places_of_keys(
+        *scene, [&] { return generate_again(*scene, std::move(blocks->assembly), blocks->report); });
     if (!line->quiet()) fmt::print("{}", to_text(blocks->report));
     line->report_warnings(united({assembly.case_warnings, assembly.block_warnings}));
     return write_files(files, *scene, assembly, blocks->report);

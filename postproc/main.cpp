@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/key_places.hpp"
 #include "assembly/export/export.hpp"
 #include "assembly/program/batch.hpp"
 #include "assembly/program/command_line.hpp"
@@ -64,7 +65,7 @@ ExitCode run_analyse(int argc, char** argv) {
   if (line.check_only()) return line.report_warnings(request.run.scene.warnings), ExitCode::done;
 
   // 3. Evaluation and output
-  return analyse(request);
+  return with_places_of_keys(request.run.scene, [&] { return analyse(request); });
 }
 
 ExitCode run_export(int argc, char** argv) {
@@ -79,7 +80,7 @@ ExitCode run_export(int argc, char** argv) {
   input.scene = line.read_case();
   input.strict = line.strict();
   if (line.check_only()) return line.report_warnings(input.scene.warnings), ExitCode::done;
-  return export_run(input, output, line.quiet());
+  return with_places_of_keys(input.scene, [&] { return export_run(input, output, line.quiet()); });
 }
 
 ExitCode run(int argc, char** argv) {

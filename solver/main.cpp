@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/key_places.hpp"
 #include "assembly/program/batch.hpp"
 #include "assembly/program/command_line.hpp"
 #include "solver/solve_case.hpp"
@@ -48,11 +49,11 @@ PreparedRun prepare(int argc, char** argv) {
   // 3. Explain or solve
   if (explain)
     return [request] {
-      fmt::print("{}", explain_case(request));
+      fmt::print("{}", with_places_of_keys(request.scene, [&] { return explain_case(request); }));
       return ExitCode::done;
     };
   if (request.output_folder.empty()) throw InputError("--output is missing; see cupola-solve --help");
-  return [request] { return solve_case(request); };
+  return [request] { return with_places_of_keys(request.scene, [&] { return solve_case(request); }); };
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "assembly/model/section_planes.hpp"
 
 namespace cupola {
+
+struct CaseNode;
 
 struct Material {
   double unit_weight = 18000.0;  ///< N/m3, > 0
@@ -80,8 +83,9 @@ struct Case {
   SampleFile sample_file;            ///< in place of `sweep`
   std::optional<Ensemble> ensemble;  ///< random members of a study of this case
 
-  std::string file;                 ///< path as given on the command line
-  std::vector<std::string> inputs;  ///< files read: the case, those it extends, and those it names
+  std::string file;                      ///< path as given on the command line
+  std::shared_ptr<const CaseNode> keys;  ///< as given, with their places in the files
+  std::vector<std::string> inputs;       ///< files read: the case, those it extends, and those it names
   std::string
       hash;  ///< of all sections except title, postproc, sweep and ensemble, which do not affect a run
   std::string geometry_hash;  ///< of the sections that the generator reads: geometry, material, imperfections

@@ -1,6 +1,7 @@
 #include "assembly/case/case_reader.hpp"
 
 #include <map>
+#include <memory>
 #include <set>
 
 #include <fmt/format.h>
@@ -48,8 +49,9 @@ std::string title_with(const std::string& title, const std::vector<std::string>&
 Case read_one_case(const std::string& path, const std::vector<std::string>& set_options) {
   Case the_case;
   std::vector<std::string> not_inherited;
-  const CaseNode tree = load_case_tree(path, set_options, &the_case.inputs, &not_inherited);
-  Section root(&tree, "", tree.where, path);
+  the_case.keys =
+      std::make_shared<CaseNode>(load_case_tree(path, set_options, &the_case.inputs, &not_inherited));
+  Section root(the_case.keys.get(), "", the_case.keys->where, path);
   root.collect_files(&the_case.inputs);
   std::vector<PlausibleRange> expected;
   root.collect_expected(&expected);

@@ -12,10 +12,10 @@ namespace {
 
 class Refusal {
  public:
-  Refusal(const Case& scene, const Assembly& assembly) : file_(scene.file), assembly_(assembly) {}
+  explicit Refusal(const Assembly& assembly) : assembly_(assembly) {}
 
   void unless(bool holds, const std::string& message) const {
-    if (!holds) throw InputError(FileLocation{file_}, message);
+    if (!holds) throw InputError(message);
   }
   /// For a key that selects courses from `ring` upwards. Imported blocks without courses have one, 0.
   void course(const std::string& key, int ring) const {
@@ -29,7 +29,6 @@ class Refusal {
   }
 
  private:
-  const std::string& file_;
   const Assembly& assembly_;
 };
 
@@ -64,7 +63,7 @@ void check_sequence(const std::vector<int>& sequence, const Assembly& assembly, 
 }  // namespace
 
 void refuse_keys_without_effect(const Case& scene, const Assembly& assembly) {
-  const Refusal refuse(scene, assembly);
+  const Refusal refuse(assembly);
   check_joints(scene.joints, assembly, refuse);
   for (size_t i = 0; i < scene.loads.faces.size(); ++i)
     refuse.course(fmt::format("loads.faces[{}].from_ring", i), scene.loads.faces[i].from_ring);

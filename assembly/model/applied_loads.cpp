@@ -51,7 +51,7 @@ double distance_outside(const Assembly& assembly, const Part& part, const Vec3& 
 
 /// The free block that contains the point, or whose faces it is least beyond: at most a tenth of the size of
 /// the block, as the point of a curved skin lies beyond the chord of a facet. Throws InputError beyond that.
-int block_at(const Assembly& assembly, const Vec3& point) {
+int block_at(const Assembly& assembly, const Vec3& point, const std::string& key) {
   int nearest = BlockForce::kAtPoint;
   double least = std::numeric_limits<double>::infinity();
   for (const Part& part : assembly.parts) {
@@ -61,13 +61,13 @@ int block_at(const Assembly& assembly, const Vec3& point) {
     nearest = part.block;
   }
   if (nearest == BlockForce::kAtPoint)
-    throw InputError("loads.forces: the assembly has no free block to carry a force");
+    throw InputError(key + ": the assembly has no free block to carry a force");
   constexpr double kFarthest = 0.1;  // of the size of the block
   if (least > kFarthest * std::cbrt(assembly.blocks[nearest].volume))
     throw InputError(
-        fmt::format("loads.forces: ({:g}, {:g}, {:g}) m lies in the air, {:.3g} m beyond the faces of the "
+        fmt::format("{}: ({:g}, {:g}, {:g}) m lies in the air, {:.3g} m beyond the faces of the "
                     "nearest block, {}; move the point, or name the `block` that carries the force",
-                    point.x(), point.y(), point.z(), least, nearest));
+                    key, point.x(), point.y(), point.z(), least, nearest));
   return nearest;
 }
 
@@ -82,10 +82,10 @@ std::string courses_of(const Assembly& assembly, const std::string& member) {
   return high < 0 ? "" : fmt::format("; {} courses are {} to {}", member.empty() ? "the" : "its", low, high);
 }
 
-void add_shared_force(const BlockForce& load, const Assembly& assembly, int time,
+void add_shared_force(const BlockForce& load, const Assembly& assembly, const std::string& key, int time,
                       std::vector<PointForce>* forces) {
   const SharingBlocks& over = *load.over;
-  check_member_exists(assembly, over.member, "loads.forces");
+  check_member_exists(assembly, over.member, key);
   const auto carries = [&](const Block& block) {
     return !block.fixed && (over.course < 0 || block.ring == over.course) &&
            is_of_member(assembly, block, over.member);
@@ -94,7 +94,7 @@ void add_shared_force(const BlockForce& load, const Assembly& assembly, int time
   for (const Block& block : assembly.blocks)
     if (carries(block)) volume += block.volume;
   if (volume == 0.0)
-    throw InputError(fmt::format("loads.forces: no free block{}{} to carry the force{}",
+    throw InputError(fmt::format("{}: no free block{}{} to carry the force{}", key,
                                  over.course >= 0 ? fmt::format(" in course {}", over.course) : "",
                                  over.member.empty() ? "" : " of member " + over.member,
                                  courses_of(assembly, over.member)));
@@ -104,15 +104,15 @@ void add_shared_force(const BlockForce& load, const Assembly& assembly, int time
 }
 
 /// On the upper faces of the masonry, wherever its extrados or the top of a wall lies below the rectangle.
-std::vector<SpreadShare> shares_of(const BlockForce& load, const Assembly& assembly) {
+std::vector<SpreadShare> shares_of(const BlockForce& load, const Assembly& assembly, const std::string& key) {
   std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::extrados}, 0, kLastRing, "");
   std::ranges::move(open_tops(assembly, 0, kLastRing, "", false), std::back_inserter(faces));
   const Vec3& point = load.point.value();
   std::vector<SpreadShare> shares = spread_shares(*load.spread, point, faces);
   if (shares.empty())
-    throw InputError(fmt::format(
-        "loads.forces: no extrados lies below the rectangle of {:g} by {:g} m about ({:g}, {:g}, {:g}) m",
-        load.spread->x, load.spread->y, point.x(), point.y(), point.z()));
+    throw InputError(
+        fmt::format("{}: no extrados lies below the rectangle of {:g} by {:g} m about ({:g}, {:g}, {:g}) m",
+                    key, load.spread->x, load.spread->y, point.x(), point.y(), point.z()));
   return shares;
 }
 
@@ -129,20 +129,20 @@ void add_moment(const Vec3& moment, int number, const Block& block, int time,
   }
 }
 
-void add_block_force(const BlockForce& load, const Assembly& assembly, int time,
+void add_block_force(const BlockForce& load, const Assembly& assembly, const std::string& key, int time,
                      std::vector<PointForce>* forces) {
-  if (load.over) return add_shared_force(load, assembly, time, forces);
+  if (load.over) return add_shared_force(load, assembly, key, time, forces);
   if (load.spread) {
-    for (const SpreadShare& s : shares_of(load, assembly))
+    for (const SpreadShare& s : shares_of(load, assembly, key))
       forces->push_back({s.block, s.point, s.share * load.force, time});
     return;
   }
   const int number =
-      load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value()) : load.block.number;
-  check_block_exists(assembly, number, "loads.forces");
+      load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value(), key) : load.block.number;
+  check_block_exists(assembly, number, key);
   const Block& block = assembly.blocks[number];
   if (block.fixed)
-    throw InputError(fmt::format("loads.forces: block {} is fixed; apply the force to a free block", number));
+    throw InputError(fmt::format("{}: block {} is fixed; apply the force to a free block", key, number));
   forces->push_back({number, load.point.value_or(block.centroid), load.force, time});
   if (load.moment) add_moment(*load.moment, number, block, time, forces);
 }
@@ -162,7 +162,7 @@ std::string kinds_of(const Assembly& assembly, const std::string& member) {
 }
 
 /// A fill on the extrados lies on the tops beside it, too.
-std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assembly) {
+std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assembly, const std::string& key) {
   const bool on_tops = load.faces == FaceKind::top;
   std::vector<LoadedFace> faces;
   if (!on_tops)
@@ -171,7 +171,7 @@ std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assemb
     std::ranges::move(open_tops(assembly, load.from_ring, load.to_ring, load.member, !on_tops),
                       std::back_inserter(faces));
   if (faces.empty())
-    throw InputError(fmt::format("loads.faces: no free block{}{} has faces of kind {}; {} has: {}",
+    throw InputError(fmt::format("{}: no free block{}{} has faces of kind {}; {} has: {}", key,
                                  load.member.empty() ? "" : " of " + load.member,
                                  load.from_ring == 0 && load.to_ring == kLastRing
                                      ? ""
@@ -181,10 +181,10 @@ std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assemb
   return faces;
 }
 
-void add_face_load(const FaceLoad& load, const Assembly& assembly, const Vec3& gravity, int time,
-                   std::vector<PointForce>* forces) {
-  check_member_exists(assembly, load.member, "loads.faces");
-  const std::vector<LoadedFace> faces = faces_under(load, assembly);
+void add_face_load(const FaceLoad& load, const Assembly& assembly, const std::string& key,
+                   const Vec3& gravity, int time, std::vector<PointForce>* forces) {
+  check_member_exists(assembly, load.member, key);
+  const std::vector<LoadedFace> faces = faces_under(load, assembly, key);
   const bool has_traction = load.traction.norm() > 0.0 || load.pressure != 0.0 || !load.fill;
   const std::vector<bool> touched = load.fill ? touched_by_fill(faces) : std::vector<bool>();
   bool is_covered = !load.fill;
@@ -199,9 +199,8 @@ void add_face_load(const FaceLoad& load, const Assembly& assembly, const Vec3& g
     if (force.norm() > 0.0) forces->push_back({face.block, point, force, time});
   }
   if (!is_covered)
-    throw InputError(
-        fmt::format("loads.faces: the fill up to z = {:g} m lies on none of the faces of kind {}",
-                    load.fill->level, to_string(load.faces)));
+    throw InputError(fmt::format("{}: the fill up to z = {:g} m lies on none of the faces of kind {}", key,
+                                 load.fill->level, to_string(load.faces)));
 }
 
 }  // namespace
@@ -219,14 +218,17 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   add_top(loads.lantern, "lantern");
   add_top(loads.top_load, "top_load");
   int time = 0;
-  for (const BlockForce& load : loads.forces) add_block_force(load, assembly, time++, &forces);
-  for (const FaceLoad& load : loads.faces) add_face_load(load, assembly, loads.gravity, time++, &forces);
+  for (size_t i = 0; i < loads.forces.size(); ++i)
+    add_block_force(loads.forces[i], assembly, fmt::format("loads.forces[{}]", i), time++, &forces);
+  for (size_t i = 0; i < loads.faces.size(); ++i)
+    add_face_load(loads.faces[i], assembly, fmt::format("loads.faces[{}]", i), loads.gravity, time++,
+                  &forces);
   return forces;
 }
 
 double share_beside(const BlockForce& load, const Assembly& assembly) {
   double met = 0.0;
-  for (const SpreadShare& s : shares_of(load, assembly)) met += s.share;
+  for (const SpreadShare& s : shares_of(load, assembly, "loads.forces")) met += s.share;
   return 1.0 - met;
 }
 

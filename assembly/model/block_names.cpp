@@ -1,6 +1,7 @@
 #include "assembly/model/block_names.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ namespace {
 /// Replaces names of blocks by their numbers.
 class BlockNames {
  public:
-  explicit BlockNames(const Assembly& assembly) {
+  explicit BlockNames(const Assembly& assembly) : assembly_(assembly) {
     int supports = 0;
     for (size_t b = 0; b < assembly.blocks.size(); ++b) {
       std::string name = assembly.blocks[b].name;
@@ -40,8 +41,8 @@ class BlockNames {
   }
 
   /// `key` of the case is for the message.
-  void resolve(const char* key, BlockRef* block) const {
-    if (block->name.empty()) return;
+  void resolve(const std::string& key, BlockRef* block) const {
+    if (block->name.empty()) return check_block_exists(assembly_, *block, key);
     const auto found = number_of_.find(block->name);
     if (found == number_of_.end()) {
       const std::string near = nearest_name(block->name, names_);
@@ -56,16 +57,23 @@ class BlockNames {
   }
 
  private:
+  const Assembly& assembly_;
   bool named_by_file_ = false;
   std::map<std::string, int> number_of_;
   std::vector<std::string> names_;
 };
 
+std::vector<BlockRef*> pointers_to(std::vector<BlockRef>* blocks) {
+  std::vector<BlockRef*> pointers;
+  for (BlockRef& block : *blocks) pointers.push_back(&block);
+  return pointers;
+}
+
 /// The blocks that a quantity names.
 std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
   std::vector<BlockRef*> blocks;
   const auto add_group = [&blocks](BaseBlocks* group) {
-    for (BlockRef& block : group->blocks) blocks.push_back(&block);
+    std::ranges::copy(pointers_to(&group->blocks), std::back_inserter(blocks));
   };
   if (auto* reaction = std::get_if<BlockReaction>(quantity)) blocks.push_back(&reaction->block);
   if (auto* joint = std::get_if<JointForce>(quantity)) blocks = {&joint->block_a, &joint->block_b};
@@ -81,22 +89,29 @@ std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
 
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports) {
   const BlockNames names(assembly);
-  for (BlockForce& force : loads->forces) names.resolve("loads.forces", &force.block);
-  for (PairTie& pair : ties->pairs) {
-    names.resolve("ties.pairs", &pair.block_a);
-    names.resolve("ties.pairs", &pair.block_b);
-  }
-  for (Restraint& restraint : supports->restraints) names.resolve("supports.restraints", &restraint.block);
-  for (SupportMove& move : supports->moves)
-    for (BlockRef& block : move.region.blocks) names.resolve("supports.moves", &block);
-  for (BlockHeat& heat : loads->heat)
-    for (BlockRef& block : heat.region.blocks) names.resolve("loads.heat", &block);
+  const auto resolve_in = [&](const char* list, auto* items, const auto& blocks_of_item) {
+    for (size_t i = 0; i < items->size(); ++i)
+      for (BlockRef* block : blocks_of_item(&(*items)[i]))
+        names.resolve(fmt::format("{}[{}]", list, i), block);
+  };
+  const auto of_region = [](auto* item) { return pointers_to(&item->region.blocks); };
+  resolve_in("loads.forces", &loads->forces, [](BlockForce* force) {
+    return force->block == BlockForce::kAtPoint ? std::vector<BlockRef*>() : std::vector{&force->block};
+  });
+  resolve_in("ties.pairs", &ties->pairs, [](PairTie* tie) {
+    return std::vector{&tie->block_a, &tie->block_b};
+  });
+  resolve_in("supports.restraints", &supports->restraints,
+             [](Restraint* restraint) { return std::vector{&restraint->block}; });
+  resolve_in("supports.moves", &supports->moves, of_region);
+  resolve_in("loads.heat", &loads->heat, of_region);
 }
 
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities) {
   const BlockNames names(assembly);
-  for (ForceQuantity& quantity : *quantities)
-    for (BlockRef* block : blocks_of(&quantity)) names.resolve("analysis.range.quantities", block);
+  for (size_t i = 0; i < quantities->size(); ++i)
+    for (BlockRef* block : blocks_of(&(*quantities)[i]))
+      names.resolve(fmt::format("analysis.range.quantities[{}]", i), block);
 }
 
 void check_block_exists(const Assembly& assembly, int block, const std::string& key) {
@@ -117,7 +132,7 @@ void check_member_exists(const Assembly& assembly, const std::string& member, co
                                                           : "; the members are " + names));
 }
 
-void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* block) {
+void resolve_block_name(const Assembly& assembly, const std::string& key, BlockRef* block) {
   BlockNames(assembly).resolve(key, block);
 }
 

@@ -16,12 +16,12 @@ std::string block_label(const Assembly& assembly, int block);
 std::string block_labels(const Assembly& assembly, const std::vector<int>& blocks);
 
 /// Replaces the names of blocks in a case by their numbers. Fixed blocks without a name are called `support
-/// 0`, `support 1`, ... in their order. Throws InputError for a name that no block has, with the nearest
-/// name.
+/// 0`, `support 1`, ... in their order. Throws InputError for a name or number that no block has, with the
+/// nearest name.
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports);
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities);
 /// `key` of the case is for the message.
-void resolve_block_name(const Assembly& assembly, const char* key, BlockRef* block);
+void resolve_block_name(const Assembly& assembly, const std::string& key, BlockRef* block);
 
 /// Throws InputError that begins with `key` for a block that does not exist.
 void check_block_exists(const Assembly& assembly, int block, const std::string& key);

@@ -75,10 +75,10 @@ void BondDrawing::fill(int column, int row, int wythe) {
         if (is_new)
           places.push_back(next);
         else if (known->second != next)
-          throw InputError(
-              fmt::format("bond.rows: the letter {} goes on without end where the drawing is repeated; give "
-                          "neighbouring blocks different letters",
-                          letter));
+          throw InputError(fmt::format(
+              "geometry.bond.rows: the letter {} goes on without end where the drawing is repeated; give "
+              "neighbouring blocks different letters",
+              letter));
       }
   for (const auto& [cell_of_period, place] : reached) block_of_[cell_of_period] = id;
   blocks_.push_back({letter, static_cast<int>(places.size()), extent_of(places, 0), extent_of(places, 1),

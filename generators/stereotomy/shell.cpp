@@ -183,8 +183,11 @@ Storey named_member(const Geometry& geometry, size_t i) {
   try {
     return make_member(geometry, member, key);
   } catch (const InputError& error) {
-    const std::string text = error.what();  // begins with "error: "
-    throw InputError("in " + key + ": " + text.substr(text.find(' ') + 1));
+    std::string text = error.what(), of_geometry = "geometry.";
+    text.erase(0, text.find(' ') + 1);  // "error: "
+    if (text.starts_with(of_geometry) && !text.starts_with(key))
+      text.replace(0, of_geometry.size(), key + ".");
+    throw InputError(text.starts_with(key) ? text : key + ": " + text);
   }
 }
 

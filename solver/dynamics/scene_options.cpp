@@ -16,9 +16,8 @@ bool starts_static(const Case& scene) {
 }
 
 void require_second_order(const Case& scene, const Model& model) {
-  const auto refuse = [&scene](const std::string& what) {
-    throw InputError(FileLocation{scene.file},
-                     "analysis.integrator: generalized_alpha is not available with " + what + "; use euler");
+  const auto refuse = [](const std::string& what) {
+    throw InputError("analysis.integrator: generalized_alpha is not available with " + what + "; use euler");
   };
   if (!model.ties.empty()) refuse("ties");
   if (scene.supports.moving()) refuse("moving supports");
@@ -38,7 +37,7 @@ DetectionOptions detection_options(const Case& scene) {
   options.ignore_initial_gaps = scene.contact.initial_gaps == ContactDetection::InitialGaps::ignore;
   options.plane = scene.analysis.plane;
   if (!options.contact_file.empty() && scene.analysis.type != AnalysisType::static_)
-    throw InputError(FileLocation{scene.file}, "contact.method: file requires analysis.type: static");
+    throw InputError("contact.method: file requires analysis.type: static");
   if (scene.contact.method == ContactDetection::Method::perturbed_gjk) {
     const ContactDetection::Perturbation& gjk = scene.contact.perturbation;
     options.perturbed_gjk = {scene.contact.margin, gjk.perturbations, gjk.angle,

@@ -1,6 +1,9 @@
 #include "solver/dynamics/supports.hpp"
 
 #include <numbers>
+#include <string>
+
+#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/time_table.hpp"
@@ -20,10 +23,9 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The motions of one block of the region of a move.
 void add_motions(const SupportMove& move, const RegionBlock& b, const Assembly& assembly,
-                 std::vector<SupportMotion>* motions) {
+                 const std::string& key, std::vector<SupportMotion>* motions) {
   Vec3 outward = Vec3::Zero();
-  if (move.outward != 0.0 || move.tilt_deg != 0.0)
-    outward = outward_of_support(assembly, b.block, "supports.moves");
+  if (move.outward != 0.0 || move.tilt_deg != 0.0) outward = outward_of_support(assembly, b.block, key);
   motions->push_back({b.block, b.factor * (move.displacement + move.outward * outward),
                       b.factor * kDegree * move.rotation_deg, move.pivot, move.time});
   if (move.tilt_deg == 0.0) return;
@@ -55,9 +57,12 @@ std::vector<SupportMotion> make_support_motions(const Case& scene, const Assembl
     for (int block : fixed_blocks(assembly))
       motions.push_back({block, ground.direction, Vec3::Zero(), Vec3::Zero(), ground.time});
   }
-  for (const SupportMove& move : scene.supports.moves)
-    for (const RegionBlock& b : blocks_of_region(move.region, assembly, true, "supports.moves"))
-      add_motions(move, b, assembly, &motions);
+  const std::vector<SupportMove>& moves = scene.supports.moves;
+  for (size_t i = 0; i < moves.size(); ++i) {
+    const std::string key = fmt::format("supports.moves[{}]", i);
+    for (const RegionBlock& b : blocks_of_region(moves[i].region, assembly, true, key))
+      add_motions(moves[i], b, assembly, key, &motions);
+  }
   return motions;
 }
 

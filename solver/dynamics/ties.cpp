@@ -14,7 +14,7 @@ namespace cupola {
 namespace {
 
 /// The tie between two points of the assembly as generated. Its force is zero at `tie.length`.
-Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
+Tie make_tie(const Assembly& assembly, BuiltTie tie, const std::string& key) {
   check_block_exists(assembly, tie.block_a, key);
   check_block_exists(assembly, tie.block_b, key);
   if (tie.block_a == tie.block_b)
@@ -41,8 +41,7 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const char* key) {
 
 /// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness, or
 /// longer by `slack`.
-Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
-  constexpr const char* key = "ties.pairs";
+Tie pair_tie(const Assembly& assembly, const PairTie& pair, const std::string& key) {
   check_block_exists(assembly, pair.block_a, key);
   check_block_exists(assembly, pair.block_b, key);
   BuiltTie tie;
@@ -62,8 +61,7 @@ Tie pair_tie(const Assembly& assembly, const PairTie& pair) {
 }
 
 /// The bar of a restraint: from the ground, at the distance of a block, to the held point.
-Tie restraint_bar(const Assembly& assembly, const Restraint& restraint) {
-  constexpr const char* key = "supports.restraints";
+Tie restraint_bar(const Assembly& assembly, const Restraint& restraint, const std::string& key) {
   check_block_exists(assembly, restraint.block, key);
   const Block& block = assembly.blocks[restraint.block];
   if (block.fixed)
@@ -119,7 +117,8 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses, const V
 
 std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
   std::vector<Tie> ties;
-  for (const PairTie& pair : scene.ties.pairs) ties.push_back(pair_tie(assembly, pair));
+  for (size_t i = 0; i < scene.ties.pairs.size(); ++i)
+    ties.push_back(pair_tie(assembly, scene.ties.pairs[i], fmt::format("ties.pairs[{}]", i)));
   for (BuiltTie built : assembly.ties) {
     if (std::isinf(built.stiffness)) built.stiffness = scene.ties.rod_stiffness;
     const Tie tie = make_tie(assembly, built, "tie of the assembly");
@@ -128,8 +127,9 @@ std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
     else
       ties.push_back(tie);
   }
-  for (const Restraint& restraint : scene.supports.restraints)
-    add_both_signs(restraint_bar(assembly, restraint), &ties);
+  const std::vector<Restraint>& restraints = scene.supports.restraints;
+  for (size_t i = 0; i < restraints.size(); ++i)
+    add_both_signs(restraint_bar(assembly, restraints[i], fmt::format("supports.restraints[{}]", i)), &ties);
   return ties;
 }
 

@@ -80,15 +80,15 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
   Loads loads;
   loads.forces.emplace_back().block = 2;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.forces: block 2 does not exist: the assembly has blocks 0 to 1");
+            "error: loads.forces[0]: block 2 does not exist: the assembly has blocks 0 to 1");
   loads.forces[0].block = 0;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.forces: block 0 is fixed; apply the force to a free block");
+            "error: loads.forces[0]: block 0 is fixed; apply the force to a free block");
   loads.forces.clear();
   loads.faces.emplace_back().faces = FaceKind::extrados;
   loads.faces[0].to_ring = 2;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.faces: no free block in rings 0 to 2 has faces of kind extrados; the model has: "
+            "error: loads.faces[0]: no free block in rings 0 to 2 has faces of kind extrados; the model has: "
             "intrados (rings 0 to 0), top (rings 0 to 0)");
   loads.faces.clear();
   for (FaceKind& kind : assembly.face_kinds)

@@ -281,7 +281,7 @@ TEST(Drum, SaysThatItsOwnBondDoesNotFit) {
   bond.blocks_per_ring = 3;
   c.geometry.members[0].bond = bond;
   const std::string message = message_of(c);
-  EXPECT_TRUE(message.starts_with("error: in geometry.members[0]: geometry.bond.spirals = 8: ")) << message;
+  EXPECT_TRUE(message.starts_with("error: geometry.members[0].bond.spirals = 8: ")) << message;
 }
 
 }  // namespace
