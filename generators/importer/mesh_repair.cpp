@@ -135,8 +135,13 @@ TriangleMesh to_triangles(const SurfaceMesh& surface, const FaceNumbers& face_of
 }  // namespace
 
 TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
+  constexpr double kFarthest = 1e9;  // m, beyond which no size of a stone is left of a double
   for (const Vec3& v : block.mesh.vertices)
-    if (!v.allFinite()) fail(block, "a coordinate is not finite");
+    if (!v.allFinite())
+      fail(block, "a coordinate is not finite");
+    else if (v.cwiseAbs().maxCoeff() > kFarthest)
+      fail(block, fmt::format("a coordinate of {:.3g} m: correct it, or geometry.import.metres_per_unit",
+                              v.cwiseAbs().maxCoeff()));
   PolygonMesh welded = weld_vertices(block.mesh, weld * extent(block.mesh.vertices));
   const int dropped = drop_doubled_faces(&welded);
   if (doubled) *doubled = dropped;

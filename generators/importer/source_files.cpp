@@ -54,7 +54,9 @@ void check_names(const ImportedBlocks& source, const std::vector<std::string>& n
     if (block_of.contains(name)) continue;
     const std::string near = nearest_name(name, known);
     throw InputError(fmt::format("geometry.import.{}: {} has no block named '{}'{}", key, source.path, name,
-                                 near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+                                 known.empty()  ? "; it holds no blocks"
+                                 : near.empty() ? fmt::format("; its first block is '{}'", known.front())
+                                                : fmt::format("; did you mean '{}'?", near)));
   }
 }
 

@@ -174,6 +174,9 @@ void GridPoints::start_block(int bond_block) {
   const double left_gap = opening(corner(row, left), corner(top, left)) / metres_per_abscissa(row, left);
   const double right_gap =
       opening(corner(row, right), corner(top, right)) / metres_per_abscissa(row, right - 1);
+  if (sides_.lower_gap + sides_.upper_gap >= top - row || left_gap + right_gap >= right - left)
+    throw InputError(
+        fmt::format("imperfections.gap = {}: opens joints by the size of a block; reduce it", gap_));
   sides_.left_head = head_plane(row, top, left, left_gap);
   sides_.right_head = head_plane(row, top, right, -right_gap);
 }

@@ -52,12 +52,13 @@ Tie pair_tie(const Assembly& assembly, const PairTie& pair, const std::string& k
   tie.stiffness = pair.stiffness;
   tie.length = (tie.point_b - tie.point_a).norm() + pair.slack - pair.prestress / pair.stiffness;
   tie.yield_force = pair.yield_force.value_or(tie.yield_force);
+  const Tie made = make_tie(assembly, tie, key);
   if (!(tie.length > 0.0))
     throw InputError(
         fmt::format("{}: the prestress {} N elongates the tie by more than its length; reduce it or "
                     "increase the stiffness",
                     key, pair.prestress));
-  return make_tie(assembly, tie, key);
+  return made;
 }
 
 /// The bar of a restraint: from the ground, at the distance of a block, to the held point.

@@ -70,11 +70,13 @@ std::string displacement_text(const Summary& summary, double threshold, bool res
 std::vector<std::string> elastic_impacts(const Analysis& analysis, const RunProgress& progress) {
   if (progress.elastic_steps == 0) return {};
   return {fmt::format(
-      "blocks met and bounced in {}: their joints, elastic without damping, take {:.1e} s to stop them, "
+      "blocks met and bounced in {}: their joints, elastic {}, take {:.1e} s to stop them, "
       "longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with rigid "
       "joints "
       "(compliance 0){}",
-      counted(progress.elastic_steps, "step"), progress.elastic_impact, 2.0 * progress.elastic_impact,
+      counted(progress.elastic_steps, "step"),
+      analysis.damping > 0.0 ? fmt::format("with a damping of {:g} s", analysis.damping) : "without damping",
+      progress.elastic_impact, 2.0 * progress.elastic_impact,
       analysis.adaptive ? "" : " or a much longer `analysis.time_step`")};
 }
 

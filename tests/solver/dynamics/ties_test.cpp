@@ -307,5 +307,19 @@ TEST(Tie, RejectsInvalidInput) {
   EXPECT_THROW(make_ties(scene, assembly), InputError);
 }
 
+// From the centroid of a block to itself: its length is zero, too, but not because of a prestress.
+TEST(Tie, FromABlockToItselfIsNamedAsSuch) {
+  Case scene;
+  scene.ties.pairs = {vertical_tie(1e6), PairTie{}};
+  scene.ties.pairs[1].block_a = scene.ties.pairs[1].block_b = 1;
+  scene.ties.pairs[1].stiffness = 1e7;
+  try {
+    make_ties(scene, hanging_cube());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "error: ties.pairs[1]: both ends are on block 1; a tie connects two blocks");
+  }
+}
+
 }  // namespace
 }  // namespace cupola::ties_test
