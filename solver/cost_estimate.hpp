@@ -28,8 +28,8 @@ struct CostEstimate {
 };
 
 /// Times one factorisation (or multigrid solve) of `problem`, the first contact problem of the run; for a
-/// dynamic analysis also its static start and its first steps, for a path its first equilibria instead. What is not timed after `time_limit`, s, is
-/// left out.
+/// dynamic analysis also its static start and its first steps, for a path its first equilibria instead. What
+/// is not timed after `time_limit`, s, is left out.
 CostEstimate estimate_cost(const Case& scene, const Assembly& assembly, const ContactProblem& problem,
                            double time_limit);
 

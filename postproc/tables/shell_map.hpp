@@ -18,8 +18,8 @@ struct ShellBox {
   double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
 };
 
-/// The unrolled shell, or one wythe of it: ring over azimuth, along a wall, or of an arch over y. In the frame of
-/// its sheet if that is turned or a vault, else of the model.
+/// The unrolled shell, or one wythe of it: ring over azimuth, along a wall, or of an arch over y. In the frame
+/// of its sheet if that is turned or a vault, else of the model.
 struct ShellMap {
   bool vault = false;  ///< azimuths
   int num_rings = 0;   ///< the last ring is num_rings - 1

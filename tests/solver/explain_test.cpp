@@ -118,8 +118,8 @@ TEST(ExplainStatic, SaysWhatCoulombsLawCosts) {
   EXPECT_NE(text.find(phrase), std::string::npos) << text;
 }
 
-// Joints that slide under Coulomb's law take tens of times the iterations of the first static solve, so that a path
-// is estimated from equilibria of its own: time 0 and two steps, which stand for all others.
+// Joints that slide under Coulomb's law take tens of times the iterations of the first static solve, so that
+// a path is estimated from equilibria of its own: time 0 and two steps, which stand for all others.
 TEST(ExplainPath, TimesItsFirstEquilibria) {
   const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 2, 2);
   Case scene = moving_wall();

@@ -1,5 +1,5 @@
-// Imperfections of domes whose beds are cones from the springing on: the blocks and the support have the facets of
-// one cone, wherever their corners have moved.
+// Imperfections of domes whose beds are cones from the springing on: the blocks and the support have the
+// facets of one cone, wherever their corners have moved.
 
 #include <gtest/gtest.h>
 
