@@ -8,7 +8,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/model/laying_course.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -98,12 +97,12 @@ std::string motion_features(const Case& scene) {
 double solves_of_stages(const Case& scene, const Assembly& assembly) {
   constexpr double kSolvesPerSearch = 4.0;  // most stages confirm the bracket of the stage before
   const StagedConstruction& staged = scene.analysis.staged;
-  const int rings = 1 + laying_course(assembly, std::max(0, assembly.num_rings - 1));
+  const int num_courses = 1 + std::max(0, std::ranges::max(laying_courses(assembly)));
   double solves = 0.0;
   for (const LaidBlocks& stage : laying_order(assembly, staged)) {
     const int courses =
         staged.hold_below < 0 ? stage.course + 1 : std::min(stage.course, staged.hold_below) + 1;
-    solves += static_cast<double>(courses) / rings;
+    solves += static_cast<double>(courses) / num_courses;
   }
   return staged.least == StagedConstruction::Least::none ? solves : (1.0 + kSolvesPerSearch) * solves;
 }
