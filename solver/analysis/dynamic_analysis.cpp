@@ -183,7 +183,8 @@ Frame DynamicRun::last_frame() const {
   Frame frame = make_frame(model, state, simulation_.contacts(), report_.forces, report_.violations,
                            simulation_.memories(), displacements(*model.assembly, seen_));
   set_role(FrameRole::step, "", &frame);
-  set_contact_poses(model, simulation_.contact_poses(), &frame);
+  state.poses = simulation_.contact_poses();
+  set_contact_poses(model, state, &frame);
   return frame;
 }
 

@@ -200,7 +200,7 @@ void PathRun::record(const StaticSolution& solution) {
   Frame frame =
       static_frame(model_, path_.start(), path_.contacts(), path_.memories(), solution, path_.options());
   set_role(FrameRole::path, "", &frame);
-  set_contact_poses(model_, path_.start().poses, &frame);
+  set_contact_poses(model_, path_.start(), &frame);
   path_.list_parted(&frame);
   sinks_.frame(frame);
   summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);

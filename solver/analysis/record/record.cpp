@@ -179,13 +179,13 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   return frame;
 }
 
-void set_contact_poses(const Model& model, const std::vector<Pose>& poses, Frame* frame) {
-  for (const Pose& pose : poses) {
+void set_contact_poses(const Model& model, const State& found, Frame* frame) {
+  for (const Pose& pose : found.poses) {
     frame->blocks.contact_position.push_back(pose.p_WB);
     frame->blocks.contact_quaternion_wxyz.push_back(wxyz(pose));
   }
   for (size_t k = 0; k < model.ties.size(); ++k) {
-    const TieGeometry then = tie_geometry(model.ties[k], poses);
+    const TieGeometry then = tie_geometry(model.ties[k], found.poses, found.ground);
     frame->ties.point_a[k] = then.point_a;
     frame->ties.point_b[k] = then.point_b;
   }

@@ -47,8 +47,9 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
                  const JointForces& forces, const std::vector<double>& violations,
                  const ContactMemories& memories, const std::vector<Vec3>& displacement);
 
-/// Records where the blocks stood when the contacts of a frame were found, and where its ties pulled there.
-void set_contact_poses(const Model& model, const std::vector<Pose>& poses, Frame* frame);
+/// Records where the blocks stood in `found`, at whose poses the contacts of a frame were found, and where its
+/// ties pulled there.
+void set_contact_poses(const Model& model, const State& found, Frame* frame);
 
 /// Appends, without force, the points of `built`, the contacts as built in the poses of the frame, that stand
 /// farther apart than `margin` (m) and that `found`, the contacts of the frame, no longer holds.
