@@ -124,6 +124,13 @@ void make_folder(const std::string& path) {
 }
 
 std::string read_text(const std::string& path) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // as Excel and Notepad write it
+  std::string text = read_bytes(path);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
+}
+
+std::string read_bytes(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || std::filesystem::is_directory(path)) {
     throw InputError(FileLocation{path}, errno == ENOENT ? "does not exist" : "cannot be read");

@@ -27,6 +27,9 @@ void remove_part_files(const std::string& folder);
 /// Creates a folder and its parents. Throws SystemError with the path.
 void make_folder(const std::string& path);
 
-std::string read_text(const std::string& path);  ///< throws InputError when it cannot be read
+/// The content of a file without a byte order mark (UTF-8). Throws InputError when it cannot be read.
+std::string read_text(const std::string& path);
+
+std::string read_bytes(const std::string& path);  ///< the same as it is
 
 }  // namespace cupola

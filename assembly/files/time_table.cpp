@@ -21,7 +21,9 @@ bool read_row(std::string line, const FileLocation& where, double* time, double*
   if (words.eof()) return false;
   std::string rest;
   if (!(words >> *time >> *value) || (words >> rest) || !std::isfinite(*time) || !std::isfinite(*value))
-    throw InputError(where, "expected two numbers, time (s) and value");
+    throw InputError(where,
+                     "expected two numbers, time (s) and value, with a comma or blanks between them; a line "
+                     "that begins with # is a comment");
   return true;
 }
 

@@ -43,6 +43,17 @@ TEST(AtomicFile, RefusesWhatIsNoRegularFile) {
   EXPECT_TRUE(fs::is_fifo(folder / "pipe"));
 }
 
+TEST(AtomicFile, ReadsTextWithoutAByteOrderMark) {
+  const std::string folder = test::fresh_folder("atomic_mark"), mark = "\xEF\xBB\xBF";
+  for (const std::string text : {"", "o ground\n", "\xEF\xBB"}) {
+    write_text_atomically(folder + "/text", mark + text);
+    EXPECT_EQ(read_text(folder + "/text"), text);
+    EXPECT_EQ(read_bytes(folder + "/text"), mark + text);
+    write_text_atomically(folder + "/text", text);
+    EXPECT_EQ(read_text(folder + "/text"), text);
+  }
+}
+
 /// The number of a process that has ended.
 int ended_process() {
   const pid_t child = ::fork();

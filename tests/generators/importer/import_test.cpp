@@ -27,6 +27,14 @@ TEST_F(Import, ReadsObjObjectsAsBlocks) {
   EXPECT_NEAR((model.blocks[1].centroid - Vec3(0.75, 0.5, 1.5)).norm(), 0.0, 1e-15);
 }
 
+TEST_F(Import, ReadsFilesWithAByteOrderMark) {
+  const std::string mark = "\xEF\xBB\xBF";
+  EXPECT_EQ(read_obj(write("marked.obj", mark + obj_box("ground", 0, 0, 1))).at(0).name, "ground");
+  EXPECT_EQ(read_off(write("marked.off", mark + kOffBox)).size(), 1u);
+  const std::string stl = "solid s\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n";
+  EXPECT_EQ(read_stl(write("marked.stl", mark + stl)).size(), 1u);
+}
+
 // Blender writes names with blanks, and a `#` inside a word is part of it.
 // A group is in force until the next one, from before the first object on.
 TEST_F(Import, GroupsOfObjObjectsNumberTheirCourses) {
