@@ -9,6 +9,17 @@
 namespace cupola {
 namespace {
 
+/// N, on all supports; none without an axis.
+std::optional<double> sum_over_supports(const Evaluation& e) {
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  if (e.assembly.num_rings > 0 || sheets.empty() || sheets.front().thrust_lines == Sheet::ThrustLines::none ||
+      e.reactions.empty())
+    return std::nullopt;
+  double sum = 0.0;
+  for (const Reaction& reaction : e.reactions) sum += reaction.outward;
+  return above(sum, e.last.joints.floor.force);
+}
+
 /// N, at the springing of an arch at x < 0 in its own frame; none of a half arch.
 std::optional<double> thrust_of_other_side(const Evaluation& e, const Sheet& sheet) {
   const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
@@ -61,7 +72,8 @@ std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
 
 std::optional<double> outward_thrust(const Evaluation& e) {
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
-  if (pushing.empty() || e.rings.empty()) return std::nullopt;
+  if (pushing.empty()) return sum_over_supports(e);
+  if (e.rings.empty()) return std::nullopt;
   const RingSum& base = base_of(e, *pushing.front());
   return base.blocks > 0 ? std::optional(thrusts_of(e, *pushing.front()).front().force) : std::nullopt;
 }

@@ -27,8 +27,9 @@ bool alike(double a, double b);
 /// they are alike. A half arch has one.
 std::vector<Thrust> thrusts_of(const Evaluation& evaluation, const Sheet& sheet);
 
-/// N, the outward thrust of a model: the largest of the last stack that pushes outwards. None without one, and
-/// where a construction has not laid its lowest course.
+/// N, the outward thrust of a model: the largest of the last stack that pushes outwards, or of stones about an
+/// axis without courses the sum over the supports. None without either, and where a construction has not laid
+/// its lowest course.
 std::optional<double> outward_thrust(const Evaluation& evaluation);
 
 }  // namespace cupola

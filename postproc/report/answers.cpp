@@ -220,10 +220,13 @@ std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& 
   if (const auto thrust = thrust_answer(e))
     out.push_back(line("thrust", *thrust));
   else
-    out.push_back(fmt::format("  {:<9} none: {}", "thrust",
-                              !at_rest(e) ? lack_of_equilibrium(e.summary, e.last.frame.role)
-                              : is_stage(e.last.frame.role) ? "the supports of the course laid last feel none"
-                                                            : "the model has no axis from which to take it"));
+    out.push_back(
+        fmt::format("  {:<9} none: {}", "thrust",
+                    !at_rest(e)                   ? lack_of_equilibrium(e.summary, e.last.frame.role)
+                    : is_stage(e.last.frame.role) ? "the supports of the course laid last feel none"
+                    : e.assembly.sheets.empty()
+                        ? "the blocks have neither courses nor an axis; geometry.import.axis gives one"
+                        : "a wall has no outside"));
   const std::vector<std::string> warnings = notices(e);
   out.push_back(fmt::format("  {:<9} {}", "warnings",
                             warnings.empty()       ? "none"

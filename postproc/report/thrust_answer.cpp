@@ -224,12 +224,24 @@ std::vector<std::string> thrusts_of_others(const Evaluation& e, const std::vecto
   return out;
 }
 
+std::string share_of_weight(const Evaluation& e, double thrust) {
+  return e.summary.weight_N > 0.0 ? fmt::format("{:.3g} of the weight", thrust / e.summary.weight_N) : "";
+}
+
 /// How the thrust of one equilibrium depends on what is not certain.
 std::string doubt_of(const Evaluation& e) {
   if (e.summary.critical && !is_stage(e.last.frame.role))
     return "at the critical value, not that of the case";
   if (e.scene.joints.have_strength()) return "";
   return "depends on the stiffness of the joints: the range over all states was not computed";
+}
+
+KeyNumber thrust_without_courses(const Evaluation& e, double thrust) {
+  std::string detail =
+      thrust < 0.0 ? "negative: inwards; the sum over the supports" : "the sum over the supports";
+  for (const std::string& text : {spread_over(e.reactions), share_of_weight(e, thrust), doubt_of(e)})
+    if (!text.empty()) detail += "; " + text;
+  return {"Outward thrust", force_text(thrust), detail};
 }
 
 }  // namespace
@@ -240,6 +252,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (!found || (*found == 0.0 && is_stage(e.last.frame.role)))
     return std::nullopt;  // the course laid last rests on others
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
+  if (pushing.empty()) return thrust_without_courses(e, *found);
   const Sheet& shell = *pushing.front();
   const bool alone = pushing.size() == 1;
   const std::vector<Thrust> thrusts = thrusts_of(e, shell);
@@ -256,8 +269,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   add(std::move(along));
   add(level_text(e, shell, differ(thrusts)));
   add(spread_over(supports));
-  if (alone && e.summary.weight_N > 0.0)
-    add(fmt::format("{:.3g} of the weight", thrusts.front().force / e.summary.weight_N));
+  if (alone) add(share_of_weight(e, thrusts.front().force));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(doubt_of(e));
   return KeyNumber{"Outward thrust", values_text(thrusts), fmt::format("{}", fmt::join(details, "; "))};
