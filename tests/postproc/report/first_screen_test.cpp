@@ -256,6 +256,7 @@ TEST(FirstScreen, AMotionThatGoesOnHasNotFallen) {
   e.last.frame.blocks.displacement[2] = Vec3(0.007, 0, 0);
   e.summary.analysis = AnalysisType::dynamic;
   e.summary.status = Status::moving;
+  e.summary.max_speed_m_per_s = 0.004;
   e.summary.message = "largest speed 0.004 m/s > threshold 0.001 m/s at the end";
   EXPECT_EQ(verdict_words(e).words, "It has not come to rest");
   EXPECT_FALSE(verdict_words(e).good);
