@@ -20,9 +20,9 @@ size_t count(const std::string& text, const std::string& part) {
 
 TEST(SideBySide, EveryMapHasItsPicture) {
   const ShellMap map = shell_maps(test::column_evaluation(0.9, 0.3)).front();
+  const Table table = shell_table(map, map.boxes);
   const std::string runs[] = {test::fresh_folder("one"), test::fresh_folder("two")};
-  for (const std::string& run : runs)
-    write_text_atomically(run + "/shell_x.csv", to_csv(shell_table(map, map.boxes)));
+  for (const std::string& run : runs) write_text_atomically(run + "/" + table.name + ".csv", to_csv(table));
   std::vector<Figure> maps = common_maps({runs[0], runs[1]}, {"A", "B"});
   ASSERT_GE(maps.size(), 2u);
   EXPECT_TRUE(maps[0].vector);
