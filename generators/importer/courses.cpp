@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kOnAxis = 1e-9;     // of the size of the model: an axis nearer the z axis is the z axis
 constexpr double kRounding = 1e-12;  // rad
+constexpr double kInLine = 1e-2;     // of the size of the model: the radius of its circle is beyond 12 sizes
 
 /// Area of the faces of free blocks on these supports (m2), and its centroid.
 struct Footing {
@@ -64,6 +65,17 @@ bool are_rings(const Courses& courses, const Assembly& assembly, const Vec3& ori
 void snap_to_z_axis(const Assembly& assembly, Sheet* sheet) {
   sheet->origin.z() = 0.0;
   if (sheet->origin.norm() < kOnAxis * size_of(assembly)) sheet->origin.setZero();
+}
+
+/// True if footings lie about an axis: seen from above, one is beside the line of the first and the farthest.
+bool surround_an_axis(const std::vector<Footing>& footings, double size) {
+  std::vector<Eigen::Vector2d> from_first;
+  for (const Footing& footing : footings)
+    from_first.emplace_back((footing.centroid - footings.front().centroid).head<2>());
+  const Eigen::Vector2d line = std::ranges::max(from_first, {}, &Eigen::Vector2d::norm).stableNormalized();
+  return std::ranges::any_of(from_first, [&](const Eigen::Vector2d& d) {
+    return std::abs(line.x() * d.y() - line.y() * d.x()) > kInLine * size;
+  });
 }
 
 /// True if the stones on these supports are those of the last course.
@@ -124,7 +136,9 @@ CourseReport set_courses(std::span<const FacePair> joints, std::span<const int> 
     sheet.origin = axis.value_or(middle);
     snap_to_z_axis(*assembly, &sheet);
     sheet.closed = courses.refusal.empty() && are_rings(courses, *assembly, sheet.origin);
-    sheet.thrust_lines = sheet.closed ? by_azimuth : groups.size() > 2 || axis ? radial : none;
+    sheet.thrust_lines = sheet.closed                                             ? by_azimuth
+                         : axis || surround_an_axis(footings, size_of(*assembly)) ? radial
+                                                                                  : none;
     report.kind = sheet.closed                   ? "rings about a vertical axis"
                   : sheet.thrust_lines == radial ? "from several springers or about the given axis"
                                                  : "a wall";

@@ -11,6 +11,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/export/export.hpp"
+#include "assembly/files/atomic_file.hpp"
 #include "generators/generate.hpp"
 #include "tests/fresh_folder.hpp"
 #include "tests/generators/importer/import_files.hpp"
@@ -169,6 +170,23 @@ TEST(Courses, OfTheFileAreRefusedWithTheStonesThatBreakThem) {
   EXPECT_NE(refusal.find("stones that lie on none of a lower number, and on no support: block d"),
             std::string::npos)
       << refusal;
+}
+
+// Three footings in line define no axis: a thrust about their middle would be a number without meaning.
+TEST(Courses, OfAWallOnThreeFootingsHaveNoAxis) {
+  std::string text;
+  for (int i = 0; i < 8; ++i)  // five boxes side by side, with a footing below the first, third and fifth
+    text += import_test::obj_box(std::to_string(i), i < 5 ? i : 2 * (i - 5), i < 5 ? 1 : 0, 8 * i + 1);
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder("footings") + "/wall.obj";
+  scene.geometry.imported->fixed_by = SupportRule::lowest;
+  write_text_atomically(scene.geometry.imported->path, text);
+  GenerateReport report;
+  const Assembly wall = generate(scene, &report);
+  EXPECT_EQ(report.model.num_supports, 3);
+  EXPECT_EQ(report.import->courses.kind, "a wall");
+  EXPECT_TRUE(wall.sheets.empty() || wall.sheets.front().thrust_lines == Sheet::ThrustLines::none);
 }
 
 TEST(Courses, OutwardIsAwayFromAGivenAxis) {
