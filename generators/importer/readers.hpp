@@ -40,7 +40,8 @@ std::vector<RawTie> read_rods(const std::string& path);
 /// Merges vertices with equal coordinates.
 void merge_equal_vertices(PolygonMesh* mesh);
 
-/// Connected components of a mesh (faces that share a vertex), in the order of their first faces.
+/// Connected surfaces of a mesh, in the order of their first faces. Surfaces that share corners, edges or
+/// faces are apart if their faces are oriented outwards.
 std::vector<RawBlock> split_components(const PolygonMesh& mesh, const std::string& path);
 
 }  // namespace cupola
