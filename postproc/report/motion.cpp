@@ -112,7 +112,7 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
       count_moving(e, threshold), counted(e.summary.free_blocks, "free block"), threshold,
       counted(bodies, "body", "bodies")));
   if (e.lost_joints.value_or(0) > 0)
-    out->push_back(fmt::format("{} that carried force at the start have separated completely.",
+    out->push_back(fmt::format("{} that carried force at the start separated completely.",
                                counted(*e.lost_joints, "joint")));
   if (!history.empty() && e.summary.weight_N > 0.0)
     out->push_back(fmt::format("The supports carry {:.3g} of the weight at the end.",

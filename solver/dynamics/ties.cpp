@@ -20,6 +20,9 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const std::string& key) {
   if (tie.block_a == tie.block_b)
     throw InputError(
         fmt::format("{}: both ends are on block {}; a tie connects two blocks", key, tie.block_a));
+  if (assembly.blocks[tie.block_a].fixed && assembly.blocks[tie.block_b].fixed)
+    throw InputError(fmt::format("{}: blocks {} and {} are fixed; a tie holds a free block", key, tie.block_a,
+                                 tie.block_b));
   if (tie.point_a == tie.point_b)
     throw InputError(fmt::format("{}: the ends on blocks {} and {} coincide", key, tie.block_a, tie.block_b));
   if (tie.block_a > tie.block_b) {

@@ -22,11 +22,11 @@ TEST(ContactPoses, OfAPathAreThoseOfTheFrameBefore) {
   scene.supports.moves.push_back(
       {.region = {.blocks = {BlockRef{3}}}, .displacement = {0, 0, 1e-5}, .time = RampInTime{}});
   PairTie tie;
-  tie.block_a = BlockRef{0};
+  tie.block_a = BlockRef{1};
   tie.block_b = BlockRef{3};
-  tie.point_a = {1, 0, 0};
+  tie.point_a = {0.5, 0, 0.1};
   tie.point_b = {0.5, 0, 0.5};
-  tie.stiffness = 1e8;
+  tie.stiffness = 1e5;
   scene.ties.pairs = {tie};
   for (const PathGeometry geometry : {PathGeometry::start, PathGeometry::end}) {
     scene.analysis.path.geometry = geometry;

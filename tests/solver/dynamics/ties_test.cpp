@@ -321,5 +321,13 @@ TEST(Tie, FromABlockToItselfIsNamedAsSuch) {
   }
 }
 
+TEST(Tie, BetweenSupportsIsRefused) {
+  Case scene;
+  scene.ties.pairs = {vertical_tie(1e6)};
+  Assembly assembly = hanging_cube();
+  for (Block& block : assembly.blocks) block.fixed = true;
+  EXPECT_THROW(make_ties(scene, assembly), InputError);
+}
+
 }  // namespace
 }  // namespace cupola::ties_test
