@@ -8,28 +8,20 @@
 namespace cupola::barrel_on_walls_test {
 namespace {
 
-class BarrelOnWalls : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_ = new ProgramFolder;
-    e_ = new Evaluation(solve_and_evaluate(read_case(bundled_folder() + "/barrel_walls.yaml"), *folder_));
-  }
-  static void TearDownTestSuite() {
-    delete e_;
-    delete folder_;
-  }
-  static inline ProgramFolder* folder_ = nullptr;
-  static inline Evaluation* e_ = nullptr;
-};
+Evaluation barrel_walls() {
+  const ProgramFolder folder;
+  return solve_and_evaluate(read_case(bundled_folder() + "/barrel_walls.yaml"), folder);
+}
 
 // The last course of the barrel stands on the second wall, whose uppermost course its joint does not carry.
-TEST_F(BarrelOnWalls, BothWallsCarryTheSame) {
-  const std::vector<Sheet>& sheets = e_->assembly.sheets;
+TEST(BarrelOnWalls, BothWallsCarryTheSame) {
+  const Evaluation e = barrel_walls();
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
   ASSERT_EQ(sheets.size(), 3u);
   const double rounding = 1e-6;  // the solver's tolerance is 1e-8 of a block's weight
   for (int course = 0; course < sheets[0].num_rings; ++course) {
-    const RingSum &a = e_->rings.at(sheets[0].first_ring + course),
-                  &b = e_->rings.at(sheets[1].first_ring + course);
+    const RingSum &a = e.rings.at(sheets[0].first_ring + course),
+                  &b = e.rings.at(sheets[1].first_ring + course);
     EXPECT_NEAR(a.height, b.height, rounding) << course;
     EXPECT_NEAR(a.largest_kern, b.largest_kern, rounding) << course;
     EXPECT_NEAR(a.largest_friction_use, b.largest_friction_use, rounding) << course;
@@ -38,28 +30,29 @@ TEST_F(BarrelOnWalls, BothWallsCarryTheSame) {
 }
 
 // Outwards of a barrel is across it. Its lowest cut passes through both springings.
-TEST_F(BarrelOnWalls, TheCutsOfItsWythePushAsItsSpringingsDo) {
-  const int first = e_->assembly.sheets[2].first_ring;
-  const double thrust = e_->rings.at(first).radial_thrust;
+TEST(BarrelOnWalls, TheCutsOfItsWythePushAsItsSpringingsDo) {
+  const Evaluation e = barrel_walls();
+  const int first = e.assembly.sheets[2].first_ring;
+  const double thrust = e.rings.at(first).radial_thrust;
   double of_wythes = 0.0, of_members = 0.0, down = 0.0;
-  for (const WytheSum& sum : e_->wythes)
+  for (const WytheSum& sum : e.wythes)
     if (sum.ring == first) of_wythes += sum.outward_force;
-  for (const MemberSum& sum : e_->members)
+  for (const MemberSum& sum : e.members)
     if (sum.ring == first) of_members += sum.outward_force, down += sum.vertical_force;
   EXPECT_NEAR(of_wythes, 2.0 * thrust, 1e-6 * thrust);
   EXPECT_NEAR(of_members, 2.0 * thrust, 1e-6 * thrust);
   // The uppermost courses of the walls carry themselves, the barrel and what lies on both.
   for (const int wall : {0, 1}) {
-    const Sheet& sheet = e_->assembly.sheets[wall];
+    const Sheet& sheet = e.assembly.sheets[wall];
     const int top = sheet.first_ring + sheet.num_rings - 1;
     double carried = 0.0;
-    for (const WytheSum& sum : e_->wythes)
+    for (const WytheSum& sum : e.wythes)
       if (sum.ring == top) carried += sum.vertical_force;
-    for (const Reaction& reaction : e_->reactions)
+    for (const Reaction& reaction : e.reactions)
       if (sheet.has_ring(reaction.ring)) {
         EXPECT_NEAR(reaction.outward, std::abs(reaction.force.x()), 1e-9 * down);
       }
-    EXPECT_NEAR(carried, -e_->rings.at(top).load_above.z() + 0.5 * down, 1e-6 * down);
+    EXPECT_NEAR(carried, -e.rings.at(top).load_above.z() + 0.5 * down, 1e-6 * down);
   }
 }
 

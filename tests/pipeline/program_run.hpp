@@ -33,11 +33,9 @@ inline std::string slurp(const std::string& path) {
 class ProgramFolder {
  public:
   ProgramFolder() {
-    const auto* now = ::testing::UnitTest::GetInstance();
-    const auto* test = now->current_test_info();  // none while a suite is set up
+    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
-            (std::string("cupola_programs_") + (test ? test->name() : now->current_test_suite()->name()) +
-             "_" + std::to_string(::getpid()));
+            (std::string("cupola_programs_") + info->name() + "_" + std::to_string(::getpid()));
     std::filesystem::create_directories(path_ / "work");
   }
   ~ProgramFolder() { std::filesystem::remove_all(path_); }

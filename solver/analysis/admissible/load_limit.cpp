@@ -151,6 +151,8 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   // At the bound itself the loads do no work on the mechanism.
   constexpr double kBeyond = 1e-9;
   limit.span = high - low;
+  for (double* end : {&limit.admissible, &limit.moving})
+    if (std::abs(*end) <= 1e-12 * limit.span) *end = 0.0;  // rounding
   const double scale = std::max(std::abs(limit.moving), std::abs(limit.admissible));
   const double proven = limit.moving + towards * kBeyond * (limit.is_zero() ? limit.span : scale);
   if (limit.moving == limit.admissible) limit.moving = proven;  // which end moves must show
