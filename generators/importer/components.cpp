@@ -44,7 +44,7 @@ Vec3 inwards(const PolygonMesh& mesh, const Vec3& edge, const Wing& wing) {
 /// rad, of the turn about the edge from a face that runs backwards through the solid to one that runs
 /// forwards. Above 0: faces that coincide belong to two solids.
 double angle_through_solid(const Vec3& edge, const Vec3& backwards, const Vec3& forwards) {
-  constexpr double kCoincide = 1e-6;  // rad
+  constexpr double kCoincide = 1e-3;  // rad: coordinates have seven digits, and stones are not so sharp
   const double angle = std::atan2(edge.dot(backwards.cross(forwards)), backwards.dot(forwards));
   return angle > kCoincide ? angle : angle + 2.0 * std::numbers::pi;
 }
