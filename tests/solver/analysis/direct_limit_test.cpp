@@ -13,22 +13,14 @@
 #include "solver/analysis/admissible/pull_solve.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
-#include "tests/solver/course_scenes.hpp"
+#include "tests/solver/analysis/limit_scenes.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::direct_limit_test {
 namespace {
 
 using Parameter = LimitSearch::Parameter;
-
-Case limit_case(Parameter parameter, double low, double high, double friction) {
-  Case scene = testing::make_case(friction, 1e-8, 0.01);
-  scene.analysis.type = AnalysisType::limit;
-  scene.analysis.limit.parameter = parameter;
-  scene.analysis.limit.low = low;
-  scene.analysis.limit.high = high;
-  return scene;
-}
+using testing::limit_case;
 
 double critical(const Case& scene, const Assembly& assembly) {
   const Summary summary = run_limit(scene, assembly, {}).value();

@@ -3,21 +3,13 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/analysis/analysis.hpp"
-#include "tests/solver/course_scenes.hpp"
+#include "tests/solver/analysis/limit_scenes.hpp"
 
 namespace cupola::limit_bracket_test {
 namespace {
 
 using Parameter = LimitSearch::Parameter;
-
-Case limit_case(Parameter parameter, double low, double high, double friction) {
-  Case scene = testing::make_case(friction, 1e-8, 0.01);
-  scene.analysis.type = AnalysisType::limit;
-  scene.analysis.limit.parameter = parameter;
-  scene.analysis.limit.low = low;
-  scene.analysis.limit.high = high;
-  return scene;
-}
+using testing::limit_case;
 
 /// A block of 2 kN that a factor on 1 kN lifts at 2, and presses down below 0.
 Case lifted_block(double low, double high) {

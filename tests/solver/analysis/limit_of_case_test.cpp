@@ -2,21 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
-#include "tests/solver/course_scenes.hpp"
+#include "tests/solver/analysis/limit_scenes.hpp"
 
 namespace cupola::limit_of_case_test {
 namespace {
 
 using Parameter = LimitSearch::Parameter;
-
-Case limit_case(Parameter parameter, double low, double high, double friction) {
-  Case scene = testing::make_case(friction, 1e-8, 0.01);
-  scene.analysis.type = AnalysisType::limit;
-  scene.analysis.limit.parameter = parameter;
-  scene.analysis.limit.low = low;
-  scene.analysis.limit.high = high;
-  return scene;
-}
+using testing::limit_case;
 
 Assembly block() {
   return testing::box_on_floor({1.0, 0.5, 0.2});
