@@ -128,6 +128,8 @@ bool shows_bracket(const CriticalValue& critical) {
 }
 
 std::string lack_of_equilibrium(const Summary& s, FrameRole shown) {
+  if (s.status == Status::collapsed && s.rest_at_end.value_or(false))
+    return "it rests only after it collapsed";
   return s.status == Status::moving && shown != FrameRole::step ? "no equilibrium exists"
                                                                 : "no equilibrium was found";
 }

@@ -35,6 +35,7 @@ bool has(const std::string& text, const std::string& words) {
 
 TEST(ReturnedMotion, CollapseSaysThatItIsAtRestAtItsEnd) {
   const Evaluation e = returned(Status::collapsed, 0.1);
+  EXPECT_EQ(margin_answer(e).detail.find("it rests only after it collapsed; to compute"), 0u);
   const std::string reason = reason_for_verdict(e);
   EXPECT_TRUE(has(reason,
                   "Within 12 s a block moves by up to 154 mm relative to the ground (at 3.05 s; 50 mm at the "
