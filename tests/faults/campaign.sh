@@ -15,7 +15,8 @@ faults=0; defects=0
 
 # Rewritten with every frame; a checkpoint carries its own checksum, and the second run resumes from it.
 growing_tables="history path stages construction failures"
-growing="^\\./results/(blocks\\.pvd|contacts\\.pvd|(${growing_tables// /|})\\.csv|checkpoint) "
+# The folder in which gnuplot draws belongs to the running program; the next run takes it over and removes it.
+growing="^\\./(results/(blocks\\.pvd|contacts\\.pvd|(${growing_tables// /|})\\.csv|checkpoint)|post/figures/\\.drawing/.*) "
 growing_files_are_whole() {
   local file text
   for file in blocks.pvd contacts.pvd; do
