@@ -16,6 +16,7 @@
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 #include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/motion_proof.hpp"
 #include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
@@ -186,9 +187,10 @@ void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimi
     if (summary->equilibrium_residual.value() <= kOutcomeTolerance) summary->status = Status::stable;
   } else if (moves) {
     if (of_case.outcome == ConicOutcome::infeasible) {
+      summary->status =
+          motion(MotionProof(own.problem.contacts, own.problem.load).next_to(of_case.v).has_value());
       limit.at_moving = std::move(own);
       limit.mechanism = of_case.v;
-      summary->status = Status::moving;
     }
     write_motion(limit, name, sinks, summary);
   } else {
