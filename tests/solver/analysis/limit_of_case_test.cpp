@@ -14,6 +14,15 @@ Assembly block() {
   return testing::box_on_floor({1.0, 0.5, 0.2});
 }
 
+/// With 10 N on the block, sideways.
+Case pushed(Case scene) {
+  BlockForce push;
+  push.block.number = 1;
+  push.force = {10.0, 0, 0};
+  scene.loads.forces = {push};
+  return scene;
+}
+
 void expect(const Case& scene, const Assembly& assembly, Status status, const std::string& message) {
   const Summary summary = run_limit(scene, assembly, {}).value();
   EXPECT_EQ(summary.status, status) << summary.message;
@@ -27,22 +36,13 @@ TEST(LimitOfCase, StandsWhereBothEndsDo) {
          "no limit from 0 to 0.1: the structure stands at both ends of the bracket, 0 and 0.1; widen the "
          "bracket beyond about 0.3");
   expect(limit_case(Parameter::tilt, 0.0, 1.0, 0.3), block(), Status::stable, "no limit from 0 to 1");
-  Case pushed = limit_case(Parameter::load, 0.0, 2.0, 0.3);
-  BlockForce push;
-  push.block.number = 1;
-  push.force = {10.0, 0, 0};
-  pushed.loads.forces = {push};
-  expect(pushed, block(), Status::stable, "no limit from 0 to 2");
+  expect(pushed(limit_case(Parameter::load, 0.0, 2.0, 0.3)), block(), Status::stable, "no limit from 0 to 2");
 }
 
 // The loads are not linear in the angle where a force stays as it is: in between it could move.
 TEST(LimitOfCase, ATiltBesideAForceIsNoInterval) {
-  Case scene = limit_case(Parameter::tilt, 0.0, 1.0, 0.3);
-  BlockForce push;
-  push.block.number = 1;
-  push.force = {10.0, 0, 0};
-  scene.loads.forces = {push};
-  expect(scene, block(), Status::stable, "tilt: the structure stands at both ends of the bracket, 0 and 1");
+  expect(pushed(limit_case(Parameter::tilt, 0.0, 1.0, 0.3)), block(), Status::stable,
+         "tilt: the structure stands at both ends of the bracket, 0 and 1");
 }
 
 TEST(LimitOfCase, ThicknessesSayNothingOfThoseBetween) {
