@@ -41,7 +41,8 @@ Mat3 inverse_hessian(const ContactLaw& law, const Vec3& gamma) {
   S(0, 0) -= 0.5 * det / (law.mu * law.mu);
   S(1, 1) += 0.5 * det;
   S(2, 2) += 0.5 * det;
-  if (w > 0.0) S -= (w / (1.0 + w * S(0, 0)) * S.col(0) * S.row(0)).eval();
+  // 1 / w, because w overflows beside a limit of next to nothing, as of open joints that bear no push.
+  if (w > 0.0) S -= (1.0 / (1.0 / w + S(0, 0)) * S.col(0) * S.row(0)).eval();
   return S;
 }
 

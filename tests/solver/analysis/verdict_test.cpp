@@ -264,6 +264,23 @@ TEST(ExactEquilibrium, ExistsWhereCohesionCarriesShearWithoutPressure) {
   }
 }
 
+// A corner whose mortar has opened and bears no push, only pull (joint_damage.hpp), carries nothing.
+TEST(ExactEquilibrium, ExistsBesideAnOpenCornerThatBearsNoPush) {
+  const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 1}));
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  ContactProblem p =
+      build_step_problem(scene.model, scene.rest, scene.contacts, scene.memories, step).problem;
+  const VecX load = applied_forces(scene.model, scene.rest, 0.0);
+  const double weight = -load[2];
+  p.strength.assign(p.block_a.size(), {.tension = weight, .cohesion = weight});
+  p.strength[0].compression = 1e-200;
+  const auto corner = [&](int i) { return scene.contacts.points[static_cast<size_t>(i)].point_a; };
+  VecX gamma = VecX::Zero(12);
+  for (int i = 1; i < 4; ++i)
+    if ((corner(i) - corner(0)).norm() < 1.2) gamma[3 * i] = 0.5 * weight;
+  EXPECT_TRUE(proves_equilibrium(p, load, gamma));
+}
+
 // Sliding resists motion by friction 0.5: a push of 0.49 weights is no proof, one of 0.51 is.
 TEST(MotionProof, SlidingBlockIsProvenToMoveAboveItsFriction) {
   const Scene scene(testing::make_case(0.5, 1e-9, 0.01), testing::box_on_floor({1, 1, 0.2}));
