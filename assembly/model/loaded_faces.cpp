@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include <boost/math/quadrature/gauss.hpp>
+
 namespace cupola {
 namespace {
 
@@ -140,34 +142,80 @@ std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces) {
   return touched;
 }
 
+namespace {
+
+/// The rays of a force that spreads down from a rectangle.
+class Rays {
+ public:
+  Rays(const Spread& spread, const Vec3& point) : spread_(spread), point_(point) {}
+
+  /// (u, v, z) of a point that a ray meets.
+  Vec3 of(const Vec3& p) const {
+    Vec3 ray = p;
+    ray.head<2>() = (p - point_).head<2>().array() / width(p.z());
+    return ray;
+  }
+
+  /// Where the ray (u, v) meets the plane of the face.
+  Vec3 meet(double u, double v, const LoadedFace& face) const {
+    const Vec3 down(-2.0 * spread_.slope * u, -2.0 * spread_.slope * v, 1.0);  // d(x, y, z) / dz
+    const Vec3 from = point_ + Vec3(u * spread_.x, v * spread_.y, 0.0);
+    return from + face.normal.dot(face.centroid - from) / face.normal.dot(down) * down;
+  }
+
+ private:
+  Eigen::Array2d width(double z) const {
+    const double growth = 2.0 * spread_.slope * (point_.z() - z);
+    return Eigen::Array2d(spread_.x + growth, spread_.y + growth);
+  }
+
+  const Spread& spread_;
+  const Vec3& point_;
+};
+
+/// Adds the area of a triangle of rays and the integral of the points at which they meet the face, which are
+/// rational functions of (u, v): by a Gauss rule in its two sides.
+void integrate(const Rays& rays, const LoadedFace& face, const std::array<Vec3, 3>& triangle, double* share,
+               Vec3* moment) {
+  const Vec3 a = triangle[1] - triangle[0], b = triangle[2] - triangle[0];
+  const double twice_area = a.x() * b.y() - a.y() * b.x();
+  using Rule = boost::math::quadrature::gauss<double, 10>;
+  *share += 0.5 * twice_area;
+  for (int k = 0; k < 3; ++k)
+    (*moment)[k] += Rule::integrate(
+        [&](double s) {
+          return s * twice_area *
+                 Rule::integrate(
+                     [&](double t) {
+                       const Vec3 ray = triangle[0] + s * (a + t * (b - a));
+                       return rays.meet(ray.x(), ray.y(), face)[k];
+                     },
+                     0.0, 1.0);
+        },
+        0.0, 1.0);
+}
+
+}  // namespace
+
 std::vector<SpreadShare> spread_shares(const Spread& spread, const Vec3& point,
                                        std::span<const LoadedFace> faces) {
-  const auto width = [&](double z) {
-    const double growth = 2.0 * spread.slope * (point.z() - z);
-    return Eigen::Array2d(spread.x + growth, spread.y + growth);
-  };
+  const Rays rays(spread, point);
   std::vector<SpreadShare> shares;
   double sum = 0.0;
   for (const LoadedFace& face : faces) {
     if (!looks_up(face)) continue;
-    std::vector<Vec3> rays = below_plane(face.polygon, Vec3::UnitZ(), point.z());  // (u, v, z)
-    for (Vec3& p : rays) p.head<2>() = (p - point).head<2>().array() / width(p.z());
+    std::vector<Vec3> met = below_plane(face.polygon, Vec3::UnitZ(), point.z());
+    for (Vec3& p : met) p = rays.of(p);
     for (const double side : {-1.0, 1.0}) {
-      rays = below_plane(rays, side * Vec3::UnitX(), 0.5);
-      rays = below_plane(rays, side * Vec3::UnitY(), 0.5);
+      met = below_plane(met, side * Vec3::UnitX(), 0.5);
+      met = below_plane(met, side * Vec3::UnitY(), 0.5);
     }
     double share = 0.0;
     Vec3 moment = Vec3::Zero();
-    for (size_t i = 1; i + 1 < rays.size(); ++i) {
-      const Vec3 a = rays[i] - rays[0], b = rays[i + 1] - rays[0];
-      const double area = 0.5 * (a.x() * b.y() - a.y() * b.x());
-      share += area;
-      moment += area / 3.0 * (rays[0] + rays[i] + rays[i + 1]);
-    }
+    for (size_t i = 1; i + 1 < met.size(); ++i)
+      integrate(rays, face, {met[0], met[i], met[i + 1]}, &share, &moment);
     if (share <= 0.0) continue;
-    Vec3 middle = moment / share;
-    middle.head<2>() = point.head<2>().array() + middle.head<2>().array() * width(middle.z());
-    shares.push_back({face.block, middle, share});
+    shares.push_back({face.block, moment / share, share});
     sum += share;
   }
   if (sum > 1.0)

@@ -160,18 +160,15 @@ double unbalanced_force(const Evaluation& e) {
 /// The motion of a mechanism: of the frame evaluated, or of that which follows the equilibrium of a limit.
 /// Stages move in many ways: their table says how each does.
 void find_what_gives_way(const ResultsReader& results, Evaluation* e) {
-  const double dilatancy =
-      e->summary.friction_law == FrictionLaw::coulomb ? 0.0 : e->summary.dilatancy.value_or(1.0);
-  const auto motion_of = [&](const Frame& frame, const JointWrenches& joints) {
-    return mechanism_motion(e->assembly, frame, joints, dilatancy * e->scene.joints.friction);
-  };
-  if (e->last.frame.role == FrameRole::mechanism) e->gives_way = motion_of(e->last.frame, e->last.joints);
+  if (e->last.frame.role == FrameRole::mechanism)
+    e->gives_way = mechanism_motion(e->assembly, e->last.frame, e->last.joints);
   if (!e->summary.critical || e->times.size() < 2) return;
   try {
     Frame frame = results.read_frame(1);
     if (e->scene.analysis.plane) spread_across_plane(&frame.contacts);
     if (frame.role == FrameRole::mechanism)
-      e->gives_way = motion_of(frame, joint_wrenches(e->assembly, frame.contacts, e->shell));
+      e->gives_way =
+          mechanism_motion(e->assembly, frame, joint_wrenches(e->assembly, frame.contacts, e->shell));
   } catch (const InputError& error) {
     leave_out(frame_name(1), error.what(), e);
   }

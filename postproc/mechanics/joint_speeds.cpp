@@ -1,70 +1,55 @@
 #include "postproc/mechanics/joint_speeds.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "postproc/mechanics/mechanism_motion.hpp"
 
 namespace cupola {
-namespace {
 
-/// Velocity of the second block of a contact relative to the first, m/s: along the normal and across it.
-struct Apart {
-  double opening = 0.0, sliding = 0.0;
-};
-Apart apart_at(const Assembly& assembly, const Frame& frame, const JointWrench& joint, int contact) {
-  const Vec3& point = frame.contacts.point[contact];
-  const auto velocity = [&](int block) -> Vec3 {
-    return frame.blocks.velocity[block] +
-           frame.blocks.angular_velocity[block].cross(point - assembly.blocks[block].centroid);
+std::vector<JointSpeeds> joint_speeds(const Assembly& assembly, const Frame& frame,
+                                      const JointWrenches& joints) {
+  const BlockTable& blocks = frame.blocks;
+  double fastest = 0.0;
+  for (const Vec3& v : blocks.velocity) fastest = std::max(fastest, v.norm());
+  const auto velocity = [&](int block, const Vec3& point) -> Vec3 {
+    const Vec3& centroid =
+        blocks.contact_position.empty() ? assembly.blocks[block].centroid : blocks.contact_position[block];
+    return blocks.velocity[block] + blocks.angular_velocity[block].cross(point - centroid);
   };
-  const Vec3 u = velocity(joint.block_b) - velocity(joint.block_a);
-  const Vec3& normal = frame.contacts.normal[contact];
-  const double opening = u.dot(normal);
-  return {opening, (u - opening * normal).norm()};
-}
-
-}  // namespace
-
-JointSpeeds joint_speeds(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                         size_t joint) {
-  const JointWrench& j = joints.wrenches[joint];
-  JointSpeeds speeds;
-  for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
-    const Apart apart = apart_at(assembly, frame, j, joints.contacts[i]);
-    speeds.opening = std::max(speeds.opening, apart.opening);
-    speeds.sliding = std::max(speeds.sliding, apart.sliding);
+  std::vector<JointSpeeds> speeds(joints.wrenches.size());
+  if (fastest == 0.0) return speeds;
+  for (size_t j = 0; j < speeds.size(); ++j) {
+    const JointWrench& joint = joints.wrenches[j];
+    for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+      const Vec3 &point = frame.contacts.point[joints.contacts[i]],
+                 &normal = frame.contacts.normal[joints.contacts[i]];
+      const Vec3 u = (velocity(joint.block_b, point) - velocity(joint.block_a, point)) / fastest;
+      const double opening = u.dot(normal);
+      speeds[j].add(opening, (u - opening * normal).norm());
+    }
   }
   return speeds;
 }
 
-MechanismMotion mechanism_motion(const Assembly& assembly, const Frame& frame, const JointWrenches& joints,
-                                 double friction) {
-  constexpr double kMoves = 0.02;  // of the fastest block
-  double fastest = 0.0;
-  for (const Vec3& v : frame.blocks.velocity) fastest = std::max(fastest, v.norm());
-  const double least = kMoves * fastest;
+MechanismMotion mechanism_motion(const Assembly& assembly, const Frame& frame, const JointWrenches& joints) {
+  const std::vector<JointSpeeds> speeds = joint_speeds(assembly, frame, joints);
   MechanismMotion motion;
-  for (const JointWrench& j : joints.wrenches) {
-    Apart closest{std::numeric_limits<double>::infinity(), 0.0};  // where the joint opens least
-    double widest = 0.0;
-    for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
-      const Apart apart = apart_at(assembly, frame, j, joints.contacts[i]);
-      if (apart.opening < closest.opening) closest = apart;
-      widest = std::max(widest, apart.opening);
-    }
-    const bool slides = closest.sliding > least && closest.opening <= friction * closest.sliding + least;
-    const bool parts = !slides && closest.opening > least;
-    if (!slides && !parts && widest <= least) continue;
-    ++(slides ? motion.joints.sliding : parts ? motion.joints.opening : motion.joints.hinging);
-    const double opens = std::max(widest - friction * closest.sliding, 0.0);
+  for (size_t i = 0; i < speeds.size(); ++i) {
+    const JointWrench& j = joints.wrenches[i];
+    const JointMotion how = speeds[i].motion();
+    if (how == JointMotion::closed) continue;
+    const bool parts = how == JointMotion::opening;
+    ++(how == JointMotion::sliding ? motion.joints.sliding
+       : parts                     ? motion.joints.opening
+                                   : motion.joints.hinging);
     const auto [below, course] =
         std::minmax(assembly.blocks[j.block_a].ring, assembly.blocks[j.block_b].ring);
     CourseMotion& at = motion.by_course[course];
+    const double opens = speeds[i].turning(), slides = speeds[i].sliding;
     (parts ? at.parting : at.hinging) += opens;
-    at.sliding += closest.sliding;
-    if (opens + closest.sliding > at.fastest) {
-      at.fastest = opens + closest.sliding;
+    at.sliding += slides;
+    if (opens + slides > at.fastest) {
+      at.fastest = opens + slides;
       at.on = below;
     }
   }

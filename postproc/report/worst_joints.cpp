@@ -111,16 +111,15 @@ std::optional<MovingJoints> moving_joints(const Evaluation& e) {
   const bool mechanism = is_mechanism(e.last.frame.role);
   if (at_rest(e) || e.summary.status == Status::unconverged || joints.empty()) return std::nullopt;
   if (!mechanism && e.last.frame.role != FrameRole::step) return std::nullopt;
-  double fastest = 0.0;
-  for (const Vec3& v : e.last.frame.blocks.velocity) fastest = std::max(fastest, v.norm());
-  if (mechanism && fastest == 0.0) return std::nullopt;
+  const bool still =
+      std::ranges::all_of(e.last.frame.blocks.velocity, [](const Vec3& v) { return v.isZero(0.0); });
+  if (mechanism && still) return std::nullopt;
+  std::vector<JointSpeeds> speeds;
+  if (mechanism) speeds = joint_speeds(e.assembly, e.last.frame, e.last.joints);
   MovingJoints out;
   for (size_t j = 0; j < joints.size(); ++j) {
-    double opening = joints[j].opening, sliding = joints[j].slip;
-    if (mechanism) {
-      const JointSpeeds speeds = joint_speeds(e.assembly, e.last.frame, e.last.joints, j);
-      opening = speeds.opening / fastest, sliding = speeds.sliding / fastest;
-    }
+    const double opening = mechanism ? speeds[j].opening : joints[j].opening,
+                 sliding = mechanism ? speeds[j].sliding : joints[j].slip;
     if (sliding > out.sliding.motion) out.sliding = {j, sliding};
     if (opening > out.opening.motion) out.opening = {j, opening};
   }

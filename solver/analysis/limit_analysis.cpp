@@ -161,6 +161,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
     summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value
     Frame first = frame;
     first.time = 0.0;
+    set_contact_poses_if_moved(probe.model, probe.start, &first);
     set_role(FrameRole::equilibrium, to_string(run.scene.analysis.limit.parameter), &first);
     run.sinks.frame(first);
   }

@@ -15,37 +15,19 @@
 namespace cupola {
 namespace {
 
-constexpr double kStopped = 1e-3;  // speed relative to the fastest block below which a block is at rest
-
 /// Motion of each joint. The contacts of one joint need not be consecutive in the set.
 std::vector<MovingJoint> joint_motions(const ContactSet& contacts, const VecX& u, double fastest) {
   const JointNumbers numbers = number_joints(contacts);
   std::vector<MovingJoint> joints(numbers.count);
-  std::vector<bool> any_closed(numbers.count, false);
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     const Contact& contact = contacts.points[i];
-    const int j = numbers.of_contact[i];
-    MovingJoint& joint = joints[j];
+    MovingJoint& joint = joints[numbers.of_contact[i]];
     joint.block_a = contact.block_a;
     joint.block_b = contact.block_b;
     joint.kind = contacts.patches[contact.patch].kind;
     joint.ring = contacts.patches[contact.patch].ring;
     const Vec3 at_point = u.segment<3>(3 * static_cast<Eigen::Index>(i)) / fastest;
-    joint.opening = std::max(joint.opening, at_point[0]);
-    // Under the associated law a sliding point opens at mu |u_t|; it counts as closed.
-    if (at_point[0] <= std::max(kStopped, at_point.tail<2>().norm())) {
-      any_closed[j] = true;
-      joint.sliding = std::max(joint.sliding, at_point.tail<2>().norm());
-    }
-  }
-  for (size_t j = 0; j < joints.size(); ++j) {
-    MovingJoint& joint = joints[j];
-    const bool slides = joint.sliding > kStopped;
-    const bool opens = joint.opening > kStopped;
-    if (slides && any_closed[j] && joint.sliding >= joint.opening)
-      joint.motion = JointMotion::sliding;
-    else if (opens)
-      joint.motion = any_closed[j] ? JointMotion::hinging : JointMotion::opening;
+    joint.speeds.add(at_point[0], at_point.tail<2>().norm());
   }
   return joints;
 }
@@ -55,10 +37,10 @@ void find_groups(const Model& model, Mechanism* mechanism) {
   const int num_blocks = static_cast<int>(model.assembly->blocks.size());
   DisjointSets groups(num_blocks);
   for (const MovingJoint& joint : mechanism->joints)
-    if (joint.motion == JointMotion::closed) groups.join(joint.block_a, joint.block_b);
+    if (joint.motion() == JointMotion::closed) groups.join(joint.block_a, joint.block_b);
   const auto moves = [&](int block) {
     const int i = model.free_index[block];
-    return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > kStopped;
+    return i != ContactProblem::kFixed && mechanism->v.segment<3>(6 * i).norm() > JointSpeeds::kStopped;
   };
   std::vector<bool> group_moves(num_blocks, false);
   for (int block = 0; block < num_blocks; ++block)
@@ -112,6 +94,7 @@ void write_mechanism(const Model& model, const State& start, const ContactSet& c
   moving.time = 1.0;
   Frame frame = make_frame(model, moving, contacts, forces, violations, memories,
                            std::vector<Vec3>(moving.poses.size(), Vec3::Zero()));
+  set_contact_poses_if_moved(model, start, &frame);
   set_role(FrameRole::mechanism, owner, &frame);
   sinks.frame(frame);
   sinks.table("mechanism_blocks.csv", mechanism_blocks_csv(model, mechanism));
@@ -150,9 +133,9 @@ constexpr CsvColumn<MovingJoint> kJointColumns[] = {
     {"block_b", [](const MovingJoint& j) { return std::to_string(j.block_b); }},
     {"kind", [](const MovingJoint& j) { return to_string(j.kind); }},
     {"ring", [](const MovingJoint& j) { return std::to_string(j.ring); }},
-    {"motion", [](const MovingJoint& j) { return to_string(j.motion); }},
-    {"opening", [](const MovingJoint& j) { return fmt::format("{:.9g}", j.opening); }},
-    {"sliding", [](const MovingJoint& j) { return fmt::format("{:.9g}", j.sliding); }},
+    {"motion", [](const MovingJoint& j) { return to_string(j.motion()); }},
+    {"opening", [](const MovingJoint& j) { return fmt::format("{:.9g}", j.speeds.opening); }},
+    {"sliding", [](const MovingJoint& j) { return fmt::format("{:.9g}", j.speeds.sliding); }},
 };
 
 }  // namespace
@@ -177,7 +160,7 @@ std::string mechanism_joints_csv(const Mechanism& mechanism) {
 std::string describe(const Mechanism& mechanism) {
   const auto count = [&](JointMotion motion) {
     return std::count_if(mechanism.joints.begin(), mechanism.joints.end(),
-                         [motion](const MovingJoint& joint) { return joint.motion == motion; });
+                         [motion](const MovingJoint& joint) { return joint.motion() == motion; });
   };
   const bool one = mechanism.num_groups == 1;
   return fmt::format(

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/base/named_enum.hpp"
+#include "assembly/model/joint_motion.hpp"
 #include "solver/analysis/record/analysis_sinks.hpp"
 #include "solver/dynamics/contact_memory.hpp"
 #include "solver/dynamics/equilibrium.hpp"
@@ -11,19 +11,13 @@
 
 namespace cupola {
 
-enum class JointMotion { closed, sliding, opening, hinging };
-constexpr auto enum_names(JointMotion) {
-  return std::array{"closed", "sliding", "opening", "hinging"};
-}
-
-/// Relative motion at a joint of a mechanism. Speeds are relative to that of the fastest block.
+/// Relative motion at a joint of a mechanism.
 struct MovingJoint {
   int block_a = 0, block_b = 0;
   JointKind kind = JointKind::other;
   int ring = 0;
-  JointMotion motion = JointMotion::closed;
-  double opening = 0.0;  ///< largest normal speed of a contact point
-  double sliding = 0.0;  ///< largest tangential speed of a contact point that stays closed
+  JointSpeeds speeds;
+  JointMotion motion() const { return speeds.motion(); }
 };
 
 /// Velocity field of a structure without equilibrium, scaled so that the fastest block has speed 1.

@@ -191,6 +191,14 @@ void set_contact_poses(const Model& model, const State& found, Frame* frame) {
   }
 }
 
+void set_contact_poses_if_moved(const Model& model, const State& found, Frame* frame) {
+  const std::vector<Pose> built = initial_poses(*model.assembly);
+  const auto stands = [](const Pose& a, const Pose& b) {
+    return a.p_WB == b.p_WB && a.q_WB.coeffs() == b.q_WB.coeffs();
+  };
+  if (!std::ranges::equal(found.poses, built, stands)) set_contact_poses(model, found, frame);
+}
+
 void append_parted(const ContactSet& built, const ContactSet& found, double margin, ContactTable* table) {
   std::set<ContactId> held;
   for (const Contact& contact : found.points) held.insert(contact.id);

@@ -50,6 +50,8 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
 /// Records where the blocks stood in `found`, at whose poses the contacts of a frame were found, and where its
 /// ties pulled there.
 void set_contact_poses(const Model& model, const State& found, Frame* frame);
+/// The same unless the blocks stood there as built, which is what a frame without these poses means.
+void set_contact_poses_if_moved(const Model& model, const State& found, Frame* frame);
 
 /// Appends, without force, the points of `built`, the contacts as built in the poses of the frame, that stand
 /// farther apart than `margin` (m) and that `found`, the contacts of the frame, no longer holds.

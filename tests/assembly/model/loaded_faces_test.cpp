@@ -2,6 +2,7 @@
 
 #include "assembly/model/loaded_faces.hpp"
 
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
@@ -101,6 +102,21 @@ TEST(SpreadForce, LoadsTheWidenedRectangle) {
   EXPECT_NEAR((centre - Vec3(2.0, 0.0, 0.0)).norm(), 0.0, 1e-14);
   EXPECT_NEAR(shares.front().share, 0.15 / 2.3, 1e-15);
   EXPECT_NEAR(shares[2].share, 0.5 / 2.3, 1e-15);
+}
+
+// On the face z = k x the ray u meets x = u A / (1 + c u), with A = X + 2 m H and c = 2 m k: the mean over u
+// is A (1 / c - ln((1 + c / 2) / (1 - c / 2)) / c^2). The rule of ten by ten points reaches rounding, here of
+// two triangles.
+TEST(SpreadForce, ActsWhereItsRaysMeetASteepFace) {
+  const double k = 0.8, slope = 0.5, width = 0.3, height = 2.0;
+  const std::vector<LoadedFace> faces{
+      face_of({{-9, -9, -9 * k}, {9, -9, 9 * k}, {9, 9, 9 * k}, {-9, 9, -9 * k}})};
+  const std::vector<SpreadShare> shares = spread_shares({width, 2.0, slope}, {0.0, 0.0, height}, faces);
+  ASSERT_EQ(shares.size(), 1u);
+  EXPECT_NEAR(shares[0].share, 1.0, 1e-15);
+  const double c = 2.0 * slope * k, x = (width + 2.0 * slope * height) *
+                                        (1.0 / c - std::log((1.0 + 0.5 * c) / (1.0 - 0.5 * c)) / (c * c));
+  EXPECT_NEAR((shares[0].point - Vec3(x, 0.0, k * x)).norm(), 0.0, 1e-12);
 }
 
 TEST(SpreadForce, ReachesOnlyFacesBelowThatLookUp) {

@@ -115,8 +115,8 @@ TEST(Mechanism, SemicircleFormsFiveMovingGroups) {
   EXPECT_EQ(mechanism.num_groups, 5);
   int hinges = 0;
   for (const MovingJoint& joint : mechanism.joints) {
-    EXPECT_TRUE(joint.motion == JointMotion::hinging || joint.motion == JointMotion::closed);
-    hinges += joint.motion == JointMotion::hinging;
+    EXPECT_TRUE(joint.motion() == JointMotion::hinging || joint.motion() == JointMotion::closed);
+    hinges += joint.motion() == JointMotion::hinging;
   }
   EXPECT_EQ(hinges, 6);
   EXPECT_EQ(mechanism.group.front(), 0) << "the support is at rest";

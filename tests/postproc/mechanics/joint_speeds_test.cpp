@@ -1,0 +1,40 @@
+#include "postproc/mechanics/joint_speeds.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/postproc/scene.hpp"
+
+namespace cupola::joint_speeds_test {
+namespace {
+
+/// The two upper blocks of a column that stands `moved` from where it was built turn with it about the edge
+/// x = 1.2 m, z = 0.5 m of the bed below them.
+std::vector<JointSpeeds> speeds_of_column(const Vec3& moved) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  for (Vec3& point : frame.contacts.point) point += moved;
+  for (const Block& block : a.blocks) frame.blocks.contact_position.push_back(block.centroid + moved);
+  for (const size_t b : {2u, 3u}) {
+    frame.blocks.velocity[b] = Vec3::UnitY().cross(a.blocks[b].centroid - Vec3(1.2, 0.4, 0.5));
+    frame.blocks.angular_velocity[b] = Vec3::UnitY();
+  }
+  return joint_speeds(a, frame, joint_wrenches(a, frame.contacts, {}));
+}
+
+// A limit of supports that spread finds its mechanism in the moved geometry.
+TEST(JointSpeeds, AreThoseOfBlocksWhereTheirContactsWereFound) {
+  const std::vector<JointSpeeds> built = speeds_of_column(Vec3::Zero()),
+                                 moved = speeds_of_column({0.5, -1.0, 0.25});
+  ASSERT_EQ(built.size(), 3u);
+  int hinges = 0;
+  for (size_t j = 0; j < built.size(); ++j) {
+    EXPECT_NEAR(moved[j].opening, built[j].opening, 1e-14);
+    EXPECT_NEAR(moved[j].sliding, built[j].sliding, 1e-14);
+    hinges += moved[j].motion() == JointMotion::hinging;
+    EXPECT_NE(moved[j].motion(), JointMotion::sliding);
+  }
+  EXPECT_EQ(hinges, 1);
+}
+
+}  // namespace
+}  // namespace cupola::joint_speeds_test
