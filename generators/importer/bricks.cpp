@@ -11,7 +11,7 @@ namespace cupola {
 namespace {
 
 // Columns before it: ID, fixed, visible, yielding, density, force (3) and reference point (3).
-constexpr size_t kFirstCoordinate = 11;
+constexpr size_t kFirstForce = 5, kFirstCoordinate = 11;
 constexpr double kPartSeparator = 9999.0;
 
 /// A number, or a message with the words before it.
@@ -77,6 +77,9 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
     RawBlock block{std::string(lines.words()[0]), lines.where(), {}, {}, expect_number(lines, 1) != 0.0, {}};
     block.density = expect_number(lines, 4);
     if (*block.density <= 0.0) lines.fail(fmt::format("density = {}: must be > 0", *block.density));
+    for (size_t w = kFirstForce; w < kFirstForce + 3; ++w)
+      if (expect_number(lines, w) != 0.0)
+        lines.fail("has a force, which is not read: give it as loads.forces, and 0, 0, 0 in the table");
     block.point_parts = read_parts(lines);
     if (block.point_parts.empty()) lines.fail("no corners");
     blocks.push_back(std::move(block));

@@ -28,7 +28,7 @@ std::vector<RawBlock> read_compas(const std::string& path);
 std::vector<RawInterface> read_compas_interfaces(const std::string& path);
 
 /// Brick CSV, one row per block: ID, fixed, visible, yielding, density, force (3), reference point (3), then
-/// the corners x, y, z of its convex parts, separated by 9999. Force and reference point are ignored.
+/// the corners x, y, z of its convex parts, separated by 9999. The force must be 0.
 std::vector<RawBlock> read_bricks(const std::string& path);
 
 /// Springs of brick models, which carry tension only: ID, A, point on A (3), B, point on B (3), k (N/m), L0

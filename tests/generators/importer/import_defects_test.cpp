@@ -63,6 +63,15 @@ TEST_F(Import, NamesTheDefectOfInvalidInput) {
   EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
 }
 
+// A load that is in the table but not in the model would turn "it falls" into "it stands".
+TEST_F(Import, RefusesForcesOfBricks) {
+  const std::string corners = ",0.5,0.5,1,0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1\n";
+  EXPECT_EQ(read_bricks(write("still.csv", "s1,0,1,0,2500,0,-0.0,0" + corners)).size(), 1u);
+  const std::string pushed = complaint(write("pushed.csv", "s1,0,1,0,2500,20000,0,0" + corners));
+  EXPECT_NE(pushed.find("pushed.csv:1: error: block s1: has a force, which is not read"), std::string::npos)
+      << pushed;
+}
+
 // Boxes on each other: the second reaches 0.02 m into the first, and the third 0.05 m into the second.
 TEST_F(Import, NamesAllOverlapsAtOnceWithTheMarginThatAdmitsThem) {
   const std::string text = obj_box("a", 0, 0, 1) + obj_box("b", 0, 0.98, 9) + obj_box("c", 0, 1.93, 17);
