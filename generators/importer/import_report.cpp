@@ -64,14 +64,14 @@ std::string to_text(const ImportReport& r) {
         "faces deviate from planes by up to {:.2g} m, {:.1g} of the size of their block; facet_angle = "
         "{:.2g} rad and snap = {:.2g} m{}: {}\n",
         r.flatness.warp, r.flatness.relative_warp, r.facet_angle, r.snap,
-        of_gaps    ? ", for faces that gape or overlap by up to half of that"
+        of_gaps    ? ", for faces that gape or overlap by up to that"
         : r.chosen ? ", chosen from that"
                    : "",
         moved);
   else if (of_gaps)
     text += fmt::format(
-        "faces that meet gape or overlap by up to {:.2g} m; snap = {:.2g} m, chosen from that: {}\n",
-        0.5 * r.snap, r.snap, moved);
+        "faces that meet gape or overlap by up to {0:.2g} m; snap = {0:.2g} m, chosen from that: {1}\n",
+        r.snap, moved);
   else if (r.snapped_facets > 0)
     text += moved + "\n";
   if (r.flatness.bent > 0)

@@ -47,12 +47,14 @@ double gap_between(const std::vector<TriangleMesh>& blocks, const BlockFacet& a,
   return b.facet.plane.normal.dot(mean) - b.facet.plane.offset;
 }
 
-/// True if two facets of different blocks have opposite normals and overlap within the limits. Of facets of a
-/// curved joint, one lies beyond the plane of the other; an opening lies between both.
-bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b,
-                     double angle, const SnapLimits& limits) {
-  if (a.block == b.block || a.facet.plane.normal.dot(b.facet.plane.normal) > -std::cos(angle)) return false;
-  if (std::min(gap_between(blocks, a, b), gap_between(blocks, b, a)) > limits.gap) return false;
+/// m, the least distance within which two facets of different blocks with opposite normals face each other, if
+/// they overlap within the limits; infinity elsewhere. Of facets of a curved joint, one lies beyond the plane
+/// of the other; an opening lies between both.
+double facing_distance(const std::vector<TriangleMesh>& blocks, const BlockFacet& a, const BlockFacet& b,
+                       double angle, const SnapLimits& limits) {
+  double least = std::numeric_limits<double>::infinity();
+  if (a.block == b.block || a.facet.plane.normal.dot(b.facet.plane.normal) > -std::cos(angle)) return least;
+  if (std::min(gap_between(blocks, a, b), gap_between(blocks, b, a)) > limits.gap) return least;
   for (int s : a.facet.triangles)
     for (int t : b.facet.triangles) {
       std::vector<Vec3> p, q;
@@ -62,16 +64,22 @@ bool face_each_other(const std::vector<TriangleMesh>& blocks, const BlockFacet& 
         q.push_back(blocks[b.block].corner(t, i));
         furthest = std::max(furthest, std::abs(a.facet.plane.normal.dot(q.back()) - a.facet.plane.offset));
       }
-      if (furthest <= limits.distance && overlap_width(p, q, a.facet.plane.normal) > limits.distance)
-        return true;
+      if (furthest <= limits.distance && furthest < least &&
+          overlap_width(p, q, a.facet.plane.normal) > limits.distance)
+        least = furthest;
     }
-  return false;
+  return least;
 }
 
+struct FacingPair {
+  int i = 0, j = 0;
+  double distance = 0.0;  // m, see facing_distance
+};
+
 /// Pairs of facets that face each other, in increasing order.
-std::vector<std::pair<int, int>> facing_pairs(const std::vector<TriangleMesh>& blocks,
-                                              const std::vector<BlockFacet>& facets, double angle,
-                                              const SnapLimits& limits) {
+std::vector<FacingPair> facing_pairs(const std::vector<TriangleMesh>& blocks,
+                                     const std::vector<BlockFacet>& facets, double angle,
+                                     const SnapLimits& limits) {
   using FacetBox = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
   std::vector<FacetBox> boxes;
   for (size_t i = 0; i < facets.size(); ++i) {
@@ -85,12 +93,13 @@ std::vector<std::pair<int, int>> facing_pairs(const std::vector<TriangleMesh>& b
     boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()),
                        static_cast<int>(i));
   }
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<FacingPair> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const FacetBox& a, const FacetBox& b) {
     const int i = std::min(a.info(), b.info()), j = std::max(a.info(), b.info());
-    if (face_each_other(blocks, facets[i], facets[j], angle, limits)) pairs.emplace_back(i, j);
+    const double distance = facing_distance(blocks, facets[i], facets[j], angle, limits);
+    if (std::isfinite(distance)) pairs.push_back({i, j, distance});
   });
-  std::ranges::sort(pairs);
+  std::ranges::sort(pairs, {}, [](const FacingPair& pair) { return std::pair(pair.i, pair.j); });
   return pairs;
 }
 
@@ -136,14 +145,14 @@ double furthest_corner(const std::vector<TriangleMesh>& blocks, const std::vecto
 
 /// Joins the groups of facing facets as long as one plane fits all their corners, and gives each group its
 /// plane. Returns the number of facets in groups.
-int set_common_planes(const std::vector<TriangleMesh>& blocks, const std::vector<std::pair<int, int>>& pairs,
+int set_common_planes(const std::vector<TriangleMesh>& blocks, const std::vector<FacingPair>& pairs,
                       double distance, std::vector<BlockFacet>* facets) {
   std::vector<Group> groups(facets->size());
   std::vector<int> group_of(facets->size());
   std::iota(group_of.begin(), group_of.end(), 0);
   for (size_t i = 0; i < facets->size(); ++i) groups[i] = alone(*facets, static_cast<int>(i));
-  for (const auto& [i, j] : pairs) {
-    const int g = group_of[i], h = group_of[j];
+  for (const FacingPair& pair : pairs) {
+    const int g = group_of[pair.i], h = group_of[pair.j];
     if (g == h) continue;
     Group both = joined(groups[g], groups[h]);
     if (furthest_corner(blocks, *facets, both) > distance) continue;
@@ -208,22 +217,29 @@ std::optional<double> snap_from_gaps(const std::vector<TriangleMesh>& blocks,
                                      const DecompositionOptions& options, double largest) {
   constexpr double kNoError = 1e-7;  // of `largest`: rounding of doubles
   constexpr double kJump = 2.0;
-  constexpr double kBalance = 0.25;  // least overlap over gap of errors
+  constexpr double kBalance = 0.25;   // least overlap over gap of errors
+  constexpr double kCovered = 1.001;  // over the distance at which the corners lie on the limit
+  struct Error {
+    double size = 0.0, distance = 0.0;  // m, from the common plane, and at which snap_facets finds the pair
+    bool overlaps = false;
+  };
   const std::vector<BlockFacet> facets = all_facets(blocks, options);
-  std::vector<std::pair<double, bool>> errors;  // m, and whether the facets overlap
-  for (const auto& [i, j] : facing_pairs(blocks, facets, opposed_angle(options), {largest, largest})) {
-    const double error = furthest_corner(blocks, facets, joined(alone(facets, i), alone(facets, j)));
-    if (error > kNoError * largest)
-      errors.emplace_back(error, gap_between(blocks, facets[i], facets[j]) < 0.0);
+  std::vector<Error> errors;
+  for (const auto& [i, j, distance] :
+       facing_pairs(blocks, facets, opposed_angle(options), {largest, largest})) {
+    const double size = furthest_corner(blocks, facets, joined(alone(facets, i), alone(facets, j)));
+    if (size > kNoError * largest)
+      errors.push_back({size, distance, gap_between(blocks, facets[i], facets[j]) < 0.0});
   }
-  std::ranges::sort(errors);
-  double gap = 0.0, overlap = 0.0;
+  std::ranges::sort(errors, {}, &Error::size);
+  double gap = 0.0, overlap = 0.0, distance = 0.0;
   std::optional<double> snap;
   for (size_t i = 0; i < errors.size(); ++i) {
-    const auto [error, overlaps] = errors[i];
-    (overlaps ? overlap : gap) = error;
-    const double next = i + 1 < errors.size() ? errors[i + 1].first : largest;
-    if (kJump * error <= std::min(next, largest) && overlap >= kBalance * gap) snap = kJump * error;
+    const double size = errors[i].size;
+    (errors[i].overlaps ? overlap : gap) = size;
+    distance = std::max({distance, errors[i].distance, kJump * size});
+    const double next = i + 1 < errors.size() ? errors[i + 1].size : largest;
+    if (kJump * size <= std::min(next, largest) && overlap >= kBalance * gap) snap = kCovered * distance;
   }
   return snap;
 }

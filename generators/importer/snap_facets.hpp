@@ -23,8 +23,8 @@ int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& o
 /// place, as rounded coordinates make them. An error is the largest distance of a corner from the common
 /// plane of two facets that face each other within `largest` (m). The distance is twice the largest error
 /// that the next one, and `largest`, exceed by a factor of two, and up to which facets overlap about as far
-/// as they gape: errors do both, and openings that were drawn overlap nowhere. None if there is no such
-/// error.
+/// as they gape: errors do both, and openings that were drawn overlap nowhere. It is a little more, so that
+/// the facets of these errors face each other within it. None if there is no such error.
 std::optional<double> snap_from_gaps(const std::vector<TriangleMesh>& blocks,
                                      const DecompositionOptions& options, double largest);
 

@@ -37,9 +37,35 @@ TEST_F(Import, ClosesGapsAndOverlapsOfRoundedCoordinates) {
   scene.geometry.imported->supports = {"0"};
   GenerateReport report;
   generate(scene, &report);
-  EXPECT_NEAR(report.import->snap, 7e-4, 1e-9);  // twice the distance from the middle of the widest
+  EXPECT_NEAR(report.import->snap, 7e-4, 1e-6);  // the widest; the tolerance is what covers rounding
   EXPECT_LT(report.model.max_overlap, 1e-12);
   EXPECT_LT(report.model.max_joint_gap, 1e-12);
+}
+
+/// A box whose base rises by `wedge` (m) towards x = 1 and whose top by `lift` at one corner.
+std::string wedged_box(const std::string& name, double z, double wedge, int first, double lift = 0.0) {
+  std::string text = "o " + name + "\n";
+  for (double dz : {0.0, 1.0})
+    for (auto [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+      text += fmt::format("v {} {} {}\n", x, y,
+                          z + dz + wedge * x * (1.0 - dz) + (dz * x * y > 0.0 ? lift : 0.0));
+  const std::string box = obj_box(name, 0, 0, first);
+  return text + box.substr(box.find("f "));
+}
+
+// A base that gapes by 1 mm on one side: its corner is that far from the face below, which is a little more
+// than twice as far as from the plane between both. The other base overlaps by 0.7 mm.
+TEST_F(Import, ClosesTheJointFromWhichSnapFollows) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = write(
+      "wedges.obj", obj_box("0", 0, 0, 1) + wedged_box("1", 1, 1e-3, 9) + wedged_box("2", 2, -7e-4, 17));
+  scene.geometry.imported->supports = {"0"};
+  GenerateReport report;
+  generate(scene, &report);
+  EXPECT_NEAR(report.import->snap, 1e-3, 2e-6);
+  EXPECT_EQ(report.import->snapped_facets, 4);
+  EXPECT_LT(report.model.max_joint_gap, 1e-12);  // rounding
 }
 
 // Openings that were drawn do not overlap anywhere and stay.
@@ -55,13 +81,7 @@ TEST_F(Import, KeepsGapsThatWereDrawn) {
 /// A box on another one, with a joint that gapes by `gap` (m), `wedge` more at x = 1. One corner of the top is
 /// lifted by 80 mm, which warps this free face by at least 20 mm, four times of which are `snap`.
 std::string gaping(double gap, double wedge) {
-  std::string text = obj_box("a", 0, 0, 1) + "o b\n";
-  for (double dz : {0.0, 1.0})
-    for (auto [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
-      text += fmt::format("v {} {} {}\n", x, y,
-                          1.0 + gap + dz + wedge * x * (1.0 - dz) + (dz * x * y > 0.0 ? 0.08 : 0.0));
-  const std::string box = obj_box("b", 0, 0, 9);
-  return text + box.substr(box.find("f "));
+  return obj_box("a", 0, 0, 1) + wedged_box("b", 1.0 + gap, wedge, 9, 0.08);
 }
 
 // Openings of more than 1 % of the smaller box, 10 mm, stay although `snap` is larger.
