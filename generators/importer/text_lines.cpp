@@ -26,22 +26,28 @@ TextLines::TextLines(std::string path, std::string_view separators)
     : path_(std::move(path)), text_(read_text(path_)), separators_(separators) {}
 
 bool TextLines::next() {
+  const std::string between = std::string(kWhite) + std::string(separators_);
+  words_.clear();
   while (position_ < text_.size()) {
     const size_t end = std::min(text_.find('\n', position_), text_.size());
     std::string_view line(text_.data() + position_, end - position_);
     position_ = std::min(end + 1, text_.size());
     ++line_;
-    words_.clear();
-    const std::string between = std::string(kWhite) + std::string(separators_);
-    for (size_t start = line.find_first_not_of(between);
-         start != std::string_view::npos && line[start] != '#';) {
+    const size_t last = line.find_last_not_of(kWhite);
+    bool continued = last != std::string_view::npos && line[last] == '\\';
+    if (continued) line = line.substr(0, last);
+    for (size_t start = line.find_first_not_of(between); start != std::string_view::npos;) {
+      if (line[start] == '#') {
+        continued = false;  // a comment may end so
+        break;
+      }
       const size_t stop = std::min(line.find_first_of(between, start), line.size());
       words_.push_back(line.substr(start, stop - start));
       start = line.find_first_not_of(between, stop);
     }
-    if (!words_.empty()) return true;
+    if (!words_.empty() && !continued) return true;
   }
-  return false;
+  return !words_.empty();
 }
 
 std::string_view TextLines::rest(size_t word) const {

@@ -15,8 +15,8 @@ class TextLines {
   /// `separators`: characters besides white space that separate words.
   TextLines(std::string path, std::string_view separators = "");
 
-  /// Moves to the next line with words. A `#` at the start of a word begins a comment. Returns false at the
-  /// end of the file.
+  /// Moves to the next line with words. A `#` at the start of a word begins a comment; a line that ends with
+  /// `\` goes on in the next one. Returns false at the end of the file.
   bool next();
   const std::vector<std::string_view>& words() const { return words_; }
   /// The line from a word to the end of the last word, as written; empty without that word.

@@ -68,7 +68,18 @@ TEST_F(Import, ReadsFilesWithAByteOrderMark) {
   EXPECT_EQ(read_stl(write("marked.stl", mark + stl)).size(), 1u);
 }
 
-// Blender writes names with blanks, and a `#` inside a word is part of it.
+// A backslash at its end continues a line, with or without a blank before it; that of a comment does not.
+TEST_F(Import, JoinsContinuedLinesOfObj) {
+  std::string text = "# C:\\vault\\\n" + obj_box("a", 0, 0, 1);
+  for (size_t at = text.find("\nf "); at != std::string::npos; at = text.find("\nf ", at + 1))
+    text.insert(at + 2, " \\\r\n");
+  text.insert(text.rfind(' '), "\\\n");
+  const std::vector<RawBlock> blocks = read_obj(write("continued.obj", text));
+  ASSERT_EQ(blocks.size(), 1u);
+  ASSERT_EQ(blocks[0].mesh.faces.size(), 6u);
+  for (const auto& face : blocks[0].mesh.faces) EXPECT_EQ(face.size(), 4u);
+}
+
 // A group is in force until the next one, from before the first object on.
 TEST_F(Import, GroupsOfObjObjectsNumberTheirCourses) {
   const std::string text = "g course 7\n" + obj_box("a", 0, 0, 1) + "g course 9\n" + obj_box("b", 0, 1, 9) +
@@ -81,6 +92,7 @@ TEST_F(Import, GroupsOfObjObjectsNumberTheirCourses) {
   EXPECT_FALSE(blocks[3].course.has_value());
 }
 
+// Blender writes names with blanks, and a `#` inside a word is part of it.
 TEST_F(Import, KeepsBlanksInTheNamesOfObjObjects) {
   ImportedBlocks source;
   source.path = write("two.obj", obj_box("Mesh 0  # a comment", 0, 0, 1) + obj_box("Mesh 1#b", 0.25, 1, 9));
