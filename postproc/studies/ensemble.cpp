@@ -62,11 +62,12 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   bool good = true;
   for (const EnsembleResults& one : all) {
     const std::string failed = failures(one.members, "member");
-    good = good && failed.empty();
+    good = good && failed.empty() && !(one.censored() && one.some_fall());
     if (!failed.empty())
       sentences.push_back(fmt::format("{}: {} failed; in all {}.", one.name, failed, endings(one.members)));
     if (!one.runs->design)
-      if (std::string governs = governing_member(one.runs->samples.keys, one.members); !governs.empty())
+      if (std::string governs = governing_member(one.runs->samples.keys, one.members, one.more_is_safer);
+          !governs.empty())
         sentences.push_back(std::move(governs));
     sentences.push_back(result_sentence(one));
   }

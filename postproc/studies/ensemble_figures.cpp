@@ -91,12 +91,13 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
     std::string plot;
     for (size_t e = 0; e < ensembles.size(); ++e) {
       std::vector<double> values = ensembles[e].values(k).values;
-      std::erase_if(values, [](double v) { return !std::isfinite(v); });
-      if (values.empty()) continue;
+      std::erase_if(values, [](double v) { return std::isnan(v); });
       std::ranges::sort(values);
       std::vector<std::vector<double>> rows;
       for (size_t i = 0; i < values.size(); ++i)
-        rows.push_back({values[i], static_cast<double>(i + 1) / static_cast<double>(values.size())});
+        if (std::isfinite(values[i]))
+          rows.push_back({values[i], static_cast<double>(i + 1) / static_cast<double>(values.size())});
+      if (rows.empty()) continue;
       const std::string block = fmt::format("column{}_{}", k, e);
       data += data_block(block, rows);
       plot +=
@@ -119,7 +120,7 @@ Figure convergence_figure(const EnsembleResults& ensemble) {
   Figure f;
   f.name = ensemble.name + "_convergence";
   const size_t n = ensemble.falls.size();
-  const std::optional<size_t> critical = ensemble.critical_column();
+  const std::optional<size_t> critical = ensemble.censored() ? std::nullopt : ensemble.critical_column();
   const bool varies = critical ? std::ranges::count(ensemble.results, *critical) > 0 : ensemble.some_fall();
   if (!ensemble.independent() || n < kFewest || !varies) return f;
   f.title = critical ? "Mean critical value over the number of members"

@@ -39,9 +39,9 @@ std::vector<double> column_of_numbers(const Table& table, size_t column) {
 }
 
 void add_estimate(const IntervalEstimate& estimate, std::vector<Table::Cell>* row) {
-  row->emplace_back(estimate.value);
-  row->emplace_back(estimate.interval ? estimate.interval->low : kNone);
-  row->emplace_back(estimate.interval ? estimate.interval->high : kNone);
+  for (const double value : {estimate.value, estimate.interval ? estimate.interval->low : kNone,
+                             estimate.interval ? estimate.interval->high : kNone})
+    row->emplace_back(std::isfinite(value) ? value : kNone);
 }
 
 void add_estimate_columns(const std::string& key, const std::string& meaning, Table* table) {
@@ -106,7 +106,10 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     for (size_t i = 0; i < difference.values.size(); ++i) {
       const double value = difference.values[i];
       difference.values[i] -= other.values[i];
-      if (!std::isfinite(difference.values[i])) continue;
+      if (!std::isfinite(difference.values[i])) {
+        difference.values[i] = kNone;
+        continue;
+      }
       ++pairs;
       first += value;
       second += other.values[i];
@@ -128,11 +131,33 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
 /// How far the members of a limit analysis stand.
 std::string critical_sentence(const EnsembleResults& ensemble, size_t column) {
   const DrawnValues drawn = ensemble.values(column);
-  const std::string& unit = ensemble.members.columns[column].unit;
+  const std::string unit =
+      ensemble.members.columns[column].unit.empty() ? "" : " " + ensemble.members.columns[column].unit;
+  if (!ensemble.censored())
+    return fmt::format(
+        "{}: critical value {}{} in the median; 5 % of the members lie below {}, 5 % above {}.",
+        ensemble.name, short_number(quantile_of(drawn, 0.5).value), unit,
+        short_number(quantile_of(drawn, 0.05).value), short_number(quantile_of(drawn, 0.95).value));
+  int without[2] = {0, 0};  // a critical value: that stand, that fall
+  std::vector<double> found;
+  for (size_t i = 0; i < drawn.values.size(); ++i) {
+    if (std::isfinite(drawn.values[i])) found.push_back(drawn.values[i]);
+    if (std::isinf(drawn.values[i])) ++without[ensemble.falls[i]];
+  }
+  const auto [least, greatest] = std::ranges::minmax(found);
+  const auto text = [&, least = least, greatest = greatest](double p) {
+    const double value = quantile_of(drawn, p).value;
+    if (std::isfinite(value)) return short_number(value) + unit;
+    return (value < 0.0 ? "below " + short_number(least) : "above " + short_number(greatest)) + unit;
+  };
+  std::vector<std::string> parts;
+  if (without[1] > 0) parts.push_back(counted(without[1], "falls", "fall"));
+  if (without[0] > 0) parts.push_back(counted(without[0], "stands", "stand"));
   return fmt::format(
-      "{}: critical value {}{}{} in the median; 5 % of the members lie below {}, 5 % above {}.",
-      ensemble.name, short_number(quantile_of(drawn, 0.5).value), unit.empty() ? "" : " ", unit,
-      short_number(quantile_of(drawn, 0.05).value), short_number(quantile_of(drawn, 0.95).value));
+      "{}: of {} {} throughout the bracket. With them, the 5 % quantile of the critical value is {}, the "
+      "median {}, the 95 % quantile {}.",
+      ensemble.name, counted(drawn.values.size(), "member"), fmt::join(parts, " and "), text(0.05), text(0.5),
+      text(0.95));
 }
 
 }  // namespace
@@ -145,6 +170,11 @@ int EnsembleResults::replicates() const {
 
 DrawnValues EnsembleResults::values(size_t column, size_t count) const {
   std::vector<double> all = column_of_numbers(members, column);
+  if (column == critical_column())
+    for (size_t i = 0; i < all.size(); ++i)
+      if (!std::isfinite(all[i]) && falls[i] >= 0)
+        all[i] = std::copysign(std::numeric_limits<double>::infinity(),
+                               (falls[i] == 1) == more_is_safer ? -1.0 : 1.0);
   if (count >= all.size()) return {std::move(all), replicates()};
   all.resize(count);
   return {std::move(all), independent() ? static_cast<int>(count) : 0};
@@ -156,6 +186,11 @@ std::optional<size_t> EnsembleResults::critical_column() const {
         std::ranges::any_of(column_of_numbers(members, k), [](double v) { return std::isfinite(v); }))
       return k;
   return {};
+}
+
+bool EnsembleResults::censored() const {
+  const std::optional<size_t> critical = critical_column();
+  return critical && std::ranges::any_of(values(*critical).values, [](double v) { return std::isinf(v); });
 }
 
 bool EnsembleResults::some_fall() const {
@@ -185,6 +220,7 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
     const std::string ending = to_display(row[status]);
     out.falls.push_back(stands(ending) ? 0 : falls(ending) ? 1 : -1);
   }
+  out.more_is_safer = more_is_safer(ensemble.runs, runs_folder);
   return out;
 }
 
@@ -210,10 +246,11 @@ Table statistics_table(const EnsembleResults& ensemble) {
   for (const size_t column : ensemble.results) {
     const DrawnValues drawn = ensemble.values(column);
     const auto known = std::ranges::count_if(drawn.values, [](double v) { return std::isfinite(v); });
+    const bool bounded = std::ranges::none_of(drawn.values, [](double v) { return std::isinf(v); });
     std::vector<Table::Cell> row = {ensemble.members.columns[column].key,
                                     ensemble.members.columns[column].unit, static_cast<int>(known)};
-    add_estimate(mean_of(drawn), &row);
-    row.emplace_back(deviation_of(drawn.values));
+    add_estimate(bounded ? mean_of(drawn) : IntervalEstimate{kNone, {}}, &row);
+    row.emplace_back(bounded ? deviation_of(drawn.values) : kNone);
     for (const double p : {0.05, 0.5, 0.95}) add_estimate(quantile_of(drawn, p), &row);
     t.rows.push_back(std::move(row));
   }
@@ -255,10 +292,10 @@ Table inputs_table(const EnsembleResults& ensemble) {
     if (ensemble.members.columns[input].key.ends_with("seed")) continue;  // their order means nothing
     const std::vector<double> x = column_of_numbers(ensemble.members, input);
     for (const size_t column : ensemble.results) {
-      const std::vector<double> y = column_of_numbers(ensemble.members, column);
+      const std::vector<double> y = ensemble.values(column).values;
       std::vector<double> known_x, known_y;
       for (size_t i = 0; i < x.size(); ++i)
-        if (std::isfinite(x[i]) && std::isfinite(y[i])) {
+        if (std::isfinite(x[i]) && !std::isnan(y[i])) {
           known_x.push_back(x[i]);
           known_y.push_back(y[i]);
         }

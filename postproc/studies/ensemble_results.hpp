@@ -17,17 +17,21 @@ struct EnsembleResults {
   Table members;           ///< sweep_table()
   std::vector<int> falls;  ///< of each member: 1 falls, 0 stands, -1 no verdict
   std::vector<size_t> results =
-      {};  ///< columns of `members` that vary in one of the ensembles to be compared
+      {};                     ///< columns of `members` that vary in one of the ensembles to be compared
+  bool more_is_safer = true;  ///< of critical values
 
   /// Number of independent replicates, see DrawnValues.
   int replicates() const;
   /// Each member is independent of all others.
   bool independent() const { return replicates() == static_cast<int>(falls.size()); }
-  /// Numbers of a column, of the first `count` members only.
+  /// Numbers of a column, of the first `count` members only. Critical values of members that fall, or stand,
+  /// throughout their bracket are infinite.
   DrawnValues values(size_t column, size_t count = static_cast<size_t>(-1)) const;
   /// Column of the critical values; nothing without any. Limit analyses stand by construction: their critical
   /// values say how far.
   std::optional<size_t> critical_column() const;
+  /// Some critical values are infinite: they have quantiles, but no mean.
+  bool censored() const;
   bool some_fall() const;
   /// Share of the first `count` members with a verdict that fall. Members without a verdict widen the
   /// interval both ways; no interval unless members are independent.
@@ -36,8 +40,9 @@ struct EnsembleResults {
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
 
-/// Of limit analyses the median and two quantiles of the critical value; else how many fall: "12 of 200
-/// members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen the interval both ways.
+/// Of limit analyses the median and two quantiles of the critical value, and how many members have none; else
+/// how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen
+/// the interval both ways.
 std::string result_sentence(const EnsembleResults& ensemble);
 
 /// A row per result: mean, standard deviation and quantiles, each with its interval.

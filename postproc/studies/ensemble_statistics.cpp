@@ -29,22 +29,29 @@ double average(const std::vector<double>& values) {
              : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Interval of the mean of independent values.
+/// Interval of the mean of independent values; none if one is infinite.
 std::optional<ConfidenceInterval> student(const std::vector<double>& values) {
-  if (values.size() < 2) return {};
+  if (values.size() < 2 || known(values).size() < values.size()) return {};
   const double n = static_cast<double>(values.size()), mean = average(values);
   const double t = quantile(complement(boost::math::students_t(n - 1.0), kTail));
   const double half = t * deviation_of(values) / std::sqrt(n);
   return ConfidenceInterval{mean - half, mean + half};
 }
 
-/// The known values of each replicate.
+/// The values from the least, infinite ones included.
+std::vector<double> sorted_values(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return std::isnan(v); });
+  std::ranges::sort(values);
+  return values;
+}
+
+/// The sorted values of each replicate.
 std::vector<std::vector<double>> groups_of(const DrawnValues& drawn) {
   const size_t count = static_cast<size_t>(drawn.replicates), size = drawn.values.size() / count;
   std::vector<std::vector<double>> groups;
   for (size_t i = 0; i < count; ++i) {
     const auto first = drawn.values.begin() + static_cast<std::ptrdiff_t>(i * size);
-    if (auto group = known({first, first + static_cast<std::ptrdiff_t>(size)}); !group.empty())
+    if (auto group = sorted_values({first, first + static_cast<std::ptrdiff_t>(size)}); !group.empty())
       groups.push_back(std::move(group));
   }
   return groups;
@@ -53,12 +60,9 @@ std::vector<std::vector<double>> groups_of(const DrawnValues& drawn) {
 double sorted_quantile(const std::vector<double>& sorted, double p) {
   const double at = p * static_cast<double>(sorted.size() - 1);
   const size_t below = static_cast<size_t>(at), above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-double quantile_of_group(std::vector<double> values, double p) {
-  std::ranges::sort(values);
-  return sorted_quantile(values, p);
+  const double beyond = at - static_cast<double>(below);
+  if (beyond == 0.0 || std::isinf(sorted[below])) return sorted[below];
+  return sorted[below] + beyond * (sorted[above] - sorted[below]);
 }
 
 /// The number of values below the quantile is binomial. Open ends where too few values lie beyond it.
@@ -118,9 +122,8 @@ IntervalEstimate mean_of(const DrawnValues& drawn) {
 }
 
 IntervalEstimate quantile_of(const DrawnValues& drawn, double p) {
-  std::vector<double> sorted = known(drawn.values);
+  const std::vector<double> sorted = sorted_values(drawn.values);
   if (sorted.empty()) return {kNan, {}};
-  std::ranges::sort(sorted);
   IntervalEstimate quantile{sorted_quantile(sorted, p), {}};
   if (drawn.replicates == 0) return quantile;
   if (drawn.replicates == static_cast<int>(drawn.values.size())) {
@@ -128,7 +131,7 @@ IntervalEstimate quantile_of(const DrawnValues& drawn, double p) {
     return quantile;
   }
   std::vector<double> quantiles;
-  for (const auto& group : groups_of(drawn)) quantiles.push_back(quantile_of_group(group, p));
+  for (const auto& group : groups_of(drawn)) quantiles.push_back(sorted_quantile(group, p));
   quantile.interval = student(quantiles);
   return quantile;
 }

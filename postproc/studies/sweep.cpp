@@ -66,30 +66,49 @@ std::optional<size_t> row_at_the_end(const Table& table, size_t column, bool lea
   return found;
 }
 
-/// "7.716 at loads.forces[0].point[0] = -1.8 (bridge_run/0005)".
-std::string critical_at(const std::vector<std::string>& keys, const Table& table, size_t row,
-                        size_t critical) {
+/// "loads.forces[0].point[0] = -1.8 (bridge_run/0005)".
+std::string settings_of(const std::vector<std::string>& keys, const Table& table, size_t row) {
   std::vector<std::string> settings;
   for (const std::string& key : keys)
     settings.push_back(fmt::format("{} = {}", key, to_display(table.rows[row][column_named(table, key)])));
+  return fmt::format("{} ({})", fmt::join(settings, ", "), to_display(table.rows[row][0]));
+}
+
+/// "7.716 at loads.forces[0].point[0] = -1.8 (bridge_run/0005)".
+std::string critical_at(const std::vector<std::string>& keys, const Table& table, size_t row,
+                        size_t critical) {
   const std::string& unit = table.columns[critical].unit;
-  return fmt::format("{:.4g}{} at {} ({})", std::get<double>(table.rows[row][critical]),
-                     unit.empty() || unit == "factor" ? "" : " " + unit, fmt::join(settings, ", "),
-                     to_display(table.rows[row][0]));
+  return fmt::format("{:.4g}{} at {}", std::get<double>(table.rows[row][critical]),
+                     unit.empty() || unit == "factor" ? "" : " " + unit, settings_of(keys, table, row));
+}
+
+/// Rows whose structure falls.
+std::vector<size_t> fallen_rows(const Table& table) {
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  std::vector<size_t> rows;
+  for (size_t r = 0; r < statuses.size(); ++r)
+    if (falls(statuses[r])) rows.push_back(r);
+  return rows;
 }
 
 }  // namespace
 
-std::string governing_member(const std::vector<std::string>& keys, const Table& table) {
+std::string governing_member(const std::vector<std::string>& keys, const Table& table, bool more_is_safer) {
   const size_t critical = column_named(table, "critical_value"),
                margin = column_named(table, "margin_factor");
   const size_t by = row_at_the_end(table, margin, true) ? margin : critical;
-  const auto least = row_at_the_end(table, by, true), greatest = row_at_the_end(table, by, false);
-  if (!least || !std::holds_alternative<double>(table.rows[*least][critical])) return "";
-  std::string text =
-      fmt::format("What governs: critical value {}.", critical_at(keys, table, *least, critical));
-  if (*greatest != *least && std::holds_alternative<double>(table.rows[*greatest][critical]))
-    text += fmt::format(" At the other end: {}.", critical_at(keys, table, *greatest, critical));
+  const bool least_governs = by == margin || more_is_safer;
+  const auto worst = row_at_the_end(table, by, least_governs),
+             best = row_at_the_end(table, by, !least_governs);
+  if (!worst || !std::holds_alternative<double>(table.rows[*worst][critical])) return "";
+  const std::vector<size_t> fallen = fallen_rows(table);
+  std::string text = "What governs: ";
+  if (!fallen.empty())
+    text += fmt::format("{} of {} fall throughout the bracket, first at {}. Of the others: ", fallen.size(),
+                        counted(table.rows.size(), "run"), settings_of(keys, table, fallen.front()));
+  text += fmt::format("critical value {}.", critical_at(keys, table, *worst, critical));
+  if (*best != *worst && std::holds_alternative<double>(table.rows[*best][critical]))
+    text += fmt::format(" At the other end: {}.", critical_at(keys, table, *best, critical));
   return text;
 }
 
@@ -135,7 +154,7 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
 }
 
 /// The banner: in how many members it stands, and at which values.
-std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
+std::string banner(const std::vector<SweptKey>& sweep, const Table& table, const std::string& governs) {
   const std::string ended = endings(table) + ".", failed = failures(table),
                     where = where_it_stands(sweep, table);
   const auto standing = std::ranges::count_if(texts_of(table, "status"),
@@ -143,13 +162,12 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table) {
   const std::string runs = counted(table.rows.size(), "run");
   if (!failed.empty())
     return verdict_html(failed + " failed", where.empty() ? ended : ended + " " + where, false);
-  std::vector<std::string> keys;
-  for (const SweptKey& swept : sweep) keys.push_back(swept.key);
-  if (const std::string governs = governing_member(keys, table); !governs.empty()) {
+  if (!governs.empty()) {
     const size_t stop = governs.find(". ");
     return verdict_html(
         governs.substr(0, stop == std::string::npos ? stop : stop + 1),
-        (stop == std::string::npos ? "" : governs.substr(stop + 2) + " ") + ended + " " + runs + ".", true);
+        (stop == std::string::npos ? "" : governs.substr(stop + 2) + " ") + ended + " " + runs + ".",
+        fallen_rows(table).empty());
   }
   if (where.empty()) return verdict_html(ended, runs + ".", true);
   const bool all = standing == static_cast<std::ptrdiff_t>(table.rows.size());
@@ -180,14 +198,14 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
   std::vector<std::string> keys;
   for (const SweptKey& swept : sweep) keys.push_back(swept.key);
   const Table table = sweep_table(keys, members, runs_folder);
-  page->add("<div class=\"first\">\n" + banner(sweep, table));
+  const std::string governs = governing_member(keys, table, more_is_safer(members, runs_folder));
+  page->add("<div class=\"first\">\n" + banner(sweep, table, governs));
   if (const std::string certain = certain_of_sweep(sweep, table); !certain.empty())
     page->add("<p class=\"certain\">" + markup_text(certain) + "</p>\n");
   page->add("</div>\n");
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table, in_readable_units(table));
   page->add_report_links(members, runs_folder);
-  const std::string governs = governing_member(keys, table);
   return fmt::format("{}\n{}: {}\n{}{}", aligned_text(table), counted(members.size(), "run"), endings(table),
                      governs, governs.empty() ? "" : "\n");
 }

@@ -22,10 +22,15 @@ std::string failures(const Table& sweep_table, const std::string& noun = "run");
 /// times are no results.
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);
 
+/// Whether limits with a greater critical value are safer, as those of loads are and those of friction are
+/// not: by the bracket of the first member that has one.
+bool more_is_safer(const std::vector<StudyRun>& members, const std::string& runs_folder);
+
 /// The member of a table of limits that governs, with its critical value and the values of its keys, and the
-/// one at the other end: that of the least margin, or of the least critical value where the case has no value
-/// to compare. "" without critical values.
-std::string governing_member(const std::vector<std::string>& keys, const Table& sweep_table);
+/// one at the other end. Members that fall throughout their bracket come first, then the least margin, or
+/// the least safe critical value where the case has no value to compare. "" without critical values.
+std::string governing_member(const std::vector<std::string>& keys, const Table& sweep_table,
+                             bool more_is_safer);
 
 /// Adds a sweep to a page: how the members ended, a figure, the table (sweep.csv), and links to the reports
 /// of the members. Returns the same as text.

@@ -105,6 +105,18 @@ std::vector<ForceRange> ranges_of_member(const std::string& folder) {
 
 }  // namespace
 
+bool more_is_safer(const std::vector<StudyRun>& members, const std::string& runs_folder) {
+  for (const StudyRun& member : members) {
+    try {
+      RunFiles run(runs_folder + "/" + member.name);
+      const double stable = run.number("results.bracket.0"), moving = run.number("results.bracket.1");
+      if (stable != moving) return stable < moving;
+    } catch (const InputError&) {  // not finished, or no critical value
+    }
+  }
+  return true;
+}
+
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables) {
   static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds"};
   constexpr double kRounding = 1e-6;  // statics are solved to 1e-8 of the loads

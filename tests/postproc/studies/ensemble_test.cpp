@@ -257,6 +257,41 @@ TEST(EnsemblePage, ComparesLimitAnalysesByTheirCriticalValues) {
             std::string::npos);
 }
 
+// Five of eight fall throughout their bracket and one stands: their critical values, beyond those found, count
+// in quantiles and shares. More is safer for loads (bracket upwards), less for friction.
+TEST(EnsemblePage, MembersWithoutACriticalValueCountInItsQuantiles) {
+  for (const bool more : {true, false}) {
+    const ScratchFolder scratch;
+    const SampledRuns ensemble = two_ensembles(scratch, 0.0, 0).front();
+    for (size_t i = 0; i < 8; ++i) {
+      const double critical = i == 5 ? 3.0 : 2.0;
+      scratch.write(
+          ensemble.runs[i].name + "/results/summary.json",
+          i < 5    ? R"({"status": "moving"})"
+          : i == 7 ? R"({"status": "stable"})"
+                   : fmt::format(R"({{"status": "stable", "critical_value": {0}, "bracket": [{1}, {0}]}})",
+                                 critical, critical + (more ? -0.1 : 0.1)));
+    }
+    StudyPage page("One", scratch.file("page"));
+    const std::string text = add_ensembles({ensemble}, scratch.folder(), &page);
+    page.write();
+    const std::string counts = "a: of 8 members 5 fall and 1 stands throughout the bracket.";
+    EXPECT_NE(
+        text.find(counts + " With them, the 5 % quantile of the critical value is below 2, the median " +
+                  (more ? "below 2" : "above 3") + ", the 95 % quantile above 3."),
+        std::string::npos)
+        << text;
+    EXPECT_NE(read_text(scratch.file("page/study.html"))
+                  .find("<p class=\"verdict bad\"><strong>" + counts + "</strong>"),
+              std::string::npos);
+    EXPECT_NE(read_text(scratch.file("page/a_statistics.csv")).find("critical_value,,2,,,,,,"),
+              std::string::npos)
+        << "no mean of the others alone";
+    EXPECT_NE(read_text(scratch.file("page/figures/distributions.gp")).find(more ? "\n2 0.75" : "\n2 0.25"),
+              std::string::npos);
+  }
+}
+
 TEST(EnsemblePage, ADifferenceWithinItsIntervalIsTheHeadline) {
   const ScratchFolder scratch;
   StudyPage page("Two", scratch.file("page"));

@@ -128,6 +128,58 @@ TEST(SweepTable, BeginsWithTheMemberThatGoverns) {
   }
 }
 
+// Limits without a margin, of which the second bracket says that less is safer, or that more is.
+TEST(SweepTable, TheSideOfTheBracketSaysWhichCriticalValueGoverns) {
+  for (const bool more : {false, true}) {
+    const ScratchFolder scratch;
+    const std::vector<SweptKey> sweep = {{"geometry.thickness", {"0.9", "0.8", "0.7"}}};
+    std::vector<StudyRun> members;
+    for (const SweepMember& member : members_of(sweep, "arch"))
+      members.push_back({member.name, "arch", member.settings});
+    const double critical[] = {0.4, 0.45, 0.5};
+    for (size_t i = 0; i < members.size(); ++i)
+      scratch.write(members[i].name + "/results/summary.json",
+                    fmt::format(R"({{"status": "stable", "critical_value": {}, "bracket": [{}, {}]}})",
+                                critical[i], critical[i] + (more ? -0.01 : 0.01), critical[i]));
+    StudyPage page("Arches", scratch.file("page"));
+    const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+    const std::string thick = "0.4 at geometry.thickness = 0.9", thin = "0.5 at geometry.thickness = 0.7";
+    const std::string governs = "What governs: critical value " + (more ? thick : thin);
+    EXPECT_NE(text.find(governs), std::string::npos) << text;
+    EXPECT_NE(text.find("At the other end: " + (more ? thin : thick)), std::string::npos) << text;
+    const std::vector<SampledRuns> file{
+        {"arches", {{sweep[0].key}, {{"0.9"}, {"0.8"}, {"0.7"}}}, {}, members}};
+    StudyPage table_page("Arches", scratch.file("table"));
+    const std::string of_file = add_ensembles(file, scratch.folder(), &table_page);
+    EXPECT_NE(of_file.find(governs), std::string::npos) << of_file;
+  }
+}
+
+// A block that slides above 10 kN has no critical acceleration at 12 and 16 kN.
+TEST(SweepTable, MembersThatFallThroughoutTheirBracketGovern) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"loads.push", {"5", "8", "12", "16"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "box"))
+    members.push_back({member.name, "box", member.settings});
+  const char* results[] = {R"({"status": "stable", "critical_value": 0.25})",
+                           R"({"status": "stable", "critical_value": 0.1})", R"({"status": "moving"})",
+                           R"({"status": "moving"})"};
+  for (size_t i = 0; i < members.size(); ++i)
+    scratch.write(members[i].name + "/results/summary.json", results[i]);
+  StudyPage page("Boxes", scratch.file("page"));
+  const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+  page.write();
+  const std::string governs =
+      fmt::format("What governs: 2 of 4 runs fall throughout the bracket, first at loads.push = 12 ({}).",
+                  members[2].name);
+  EXPECT_NE(text.find(governs + " Of the others: critical value 0.1 at loads.push = 8"), std::string::npos)
+      << text;
+  EXPECT_NE(read_text(scratch.file("page/study.html"))
+                .find("<p class=\"verdict bad\"><strong>" + governs + "</strong>"),
+            std::string::npos);
+}
+
 /// A sweep over friction and thickness of four members with a critical value each.
 Table table_of_four() {
   Table table{"sweep", "", {}, {}};
