@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include <CLI/CLI.hpp>
@@ -65,7 +66,7 @@ Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& 
   constexpr size_t kMostInARow = 5;
   std::string data;
   std::vector<size_t> drawn;
-  double least = 0.0, most = 0.0, highest = 0.0;
+  double least = 0.0, most = 0.0, lowest = 0.0, highest = -std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < folders.size(); ++i) {
     const std::string path = (fs::path(folders[i]) / (overlay.table + ".csv")).string();
     if (!fs::exists(path)) continue;
@@ -76,6 +77,7 @@ Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& 
       if (!std::isfinite(row[1])) continue;
       least = std::min(least, row[1]);
       most = std::max(most, row[1]);
+      lowest = std::min(lowest, row[0]);
       highest = std::max(highest, row[0]);
     }
     data += data_block(fmt::format("run{}", i), rows);
@@ -90,9 +92,11 @@ Figure multiples_figure(const Overlay& overlay, const std::vector<std::string>& 
       "{}, over the height in m: one panel per run, the others in grey, all on one scale.", overlay.label);
   f.width = static_cast<int>(60 + 210 * columns);
   f.height = static_cast<int>(40 + 320 * rows);
+  const double edge = 0.03 * (highest - lowest);
   f.commands = plot_style() + data +
-               fmt::format("unset key\nset xrange [{}:{}]\nset yrange [0:{}]\nset xtics {}\n", 1.05 * least,
-                           1.05 * most, 1.03 * highest, round_down(0.5 * (most - least)));
+               fmt::format("unset key\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n", 1.05 * least,
+                           1.05 * most, lowest < 0.0 ? lowest - edge : 0.0, highest + edge,
+                           round_down(0.5 * (most - least)));
   std::vector<std::string> plots;
   for (size_t k = 0; k < drawn.size(); ++k) {
     std::string plot;

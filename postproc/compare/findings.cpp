@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/status.hpp"
@@ -14,7 +16,7 @@
 namespace cupola {
 namespace {
 
-constexpr const char* kCritical = "critical_friction";
+constexpr const char* kCritical = "critical_value";
 
 using Values = std::vector<std::optional<double>>;
 
@@ -82,7 +84,14 @@ std::string sentence(const Measure& measure, const Values& values, const std::ve
       numbers +=
           fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit_text(measure, runs[i]), labels[i]);
   }
-  return fmt::format("{} {}: {}.", measure.subject, numbers, conclusion(measure, values, labels));
+  std::set<std::string> parameters;
+  if (measure.key == kCritical)
+    for (size_t i = 0; i < values.size(); ++i)
+      if (values[i]) parameters.insert(runs[i].critical_parameter);
+  return fmt::format("{} {}: {}.", measure.subject, numbers,
+                     parameters.size() > 1
+                         ? fmt::format("of {}, which do not compare", fmt::join(parameters, ", "))
+                         : conclusion(measure, values, labels));
 }
 
 /// Says where the runs differ in contact points while compliance is given per point; "" elsewhere.

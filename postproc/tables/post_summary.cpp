@@ -214,6 +214,7 @@ PostSummary post_summary(const Evaluation& e) {
   s.equilibrium_residual = e.summary.equilibrium_residual.value_or(std::numeric_limits<double>::infinity());
   if (const auto& critical = e.summary.critical) {
     s.critical_value = critical->value;
+    s.critical_parameter = critical->parameter;
     s.critical_unit = limit_unit(critical->parameter);
     s.margin_factor = factor_of_safety(e.scene, e.summary);
   }
@@ -231,6 +232,7 @@ std::string post_summary_json(const Evaluation& e) {
   Json json;
   json["format_version"] = kFormatVersion;
   for_each_field(s, [&json](const char* key, const auto& value) { json[key] = to_value(value); });
+  json["critical_parameter"] = s.critical_parameter;
   json["assembly_hash"] = e.summary.assembly_hash;
   json["case_hash"] = e.summary.case_hash;
   json["time_s"] = e.last.frame.time;
@@ -283,6 +285,8 @@ PostSummary read_post_summary(const std::string& folder) {
     }
   };
   for_each_field(s, [&](const char* key, auto& value) { read(json, key, &value); });
+  if (json.contains("critical_parameter"))  // version 0.4 did not write it
+    read(json, "critical_parameter", &s.critical_parameter);
   for (const Json& entry : json["thrust_lines"]) {
     PostSummary::Line line;
     read(entry, "name", &line.name);
