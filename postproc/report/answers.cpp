@@ -173,10 +173,12 @@ KeyNumber margin_answer(const Evaluation& e) {
             first_clause(e.summary.message)};
   if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
     return least_answer(e);
-  if (!at_rest(e))
-    return {"Margin", falls(e.summary) ? "none" : "unknown",
+  if (!at_rest(e)) {
+    const bool sought = e.scene.analysis.robustness > 0;
+    return {sought ? "Horizontal acceleration" : "Margin", falls(e.summary) ? "none" : "unknown",
             lack_of_equilibrium(e.summary, e.last.frame.role) +
-                "; to compute what it lacks: " + command_for_margins(e)};
+                (sought ? "" : "; to compute what it lacks: " + command_for_margins(e))};
+  }
   if (e.last.frame.role == FrameRole::path && !stands(e.summary.status)) return end_of_path(e);
   return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }

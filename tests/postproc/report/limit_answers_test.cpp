@@ -1,4 +1,4 @@
-// Answers of limits that find no critical value.
+// Answers of limits, and of searches that find no critical value.
 #include <gtest/gtest.h>
 
 #include "postproc/report/answers.hpp"
@@ -25,6 +25,18 @@ TEST(LimitAnswers, TheMarginSaysWhatWasLookedForInVain) {
             "no limit");
   EXPECT_EQ(margin(Status::stable, both + ", 0.01 and 1; widen the bracket").value, "not found");
   EXPECT_EQ(margin(Status::unconverged, both + ", 0.01 and 1; widen the bracket").value, "unknown");
+}
+
+// The assessment of a case that falls does not advise to run an assessment.
+TEST(LimitAnswers, NoAccelerationIsLeftToWhatFalls) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.scene.analysis.robustness = 8;
+  e.summary.status = Status::moving;
+  e.last.frame.role = FrameRole::mechanism;
+  const KeyNumber margin = margin_answer(e);
+  EXPECT_EQ(margin.name, "Horizontal acceleration");
+  EXPECT_EQ(margin.value, "none");
+  EXPECT_EQ(margin.detail, "no equilibrium exists");
 }
 
 }  // namespace
