@@ -95,7 +95,7 @@ std::string JointMap::axes() const {
       std::max(1, (map_.num_rings - map_.first_ring + 7) / 8),
       map_.vault  ? "azimuth (deg)"
       : map_.arch ? "y (m)"
-                  : "x (m)",
+                  : "along the wall (m)",
       map_.vault ? "ring" : "course");
 }
 

@@ -54,4 +54,10 @@ std::string direction_of_limit(const LimitSearch& limit) {
   return fmt::format("pulled towards {}; other directions are not computed", towards);
 }
 
+std::string friction_text(const Joints& joints) {
+  const auto [least, greatest] = joints.friction_range();
+  if (least == greatest) return fmt::format("a coefficient of friction of {:g}", least);
+  return fmt::format("coefficients of friction of {:g} to {:g}", least, greatest);
+}
+
 }  // namespace cupola

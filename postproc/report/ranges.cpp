@@ -7,6 +7,7 @@
 
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/report/loads_text.hpp"
 #include "postproc/tables/range_values.hpp"
 #include "postproc/tables/table.hpp"
 
@@ -111,8 +112,8 @@ std::vector<std::string> range_conditions(const Evaluation& e) {
       "The limits are certain: every force state in which these blocks can stand lies inside them, "
       "whatever the order of construction, the settlement of the supports or the stiffness of the joints. "
       "They hold for forces of up to 1000 times the largest of the states found. The shape of the blocks, "
-      "their rigidity, their loads and the friction coefficient of {:g} are assumed.",
-      e.scene.joints.friction));
+      "their rigidity, their loads and {} are assumed.",
+      friction_text(e.scene.joints)));
   if (has_chosen(e.summary.ranges))
     out.push_back(
         "The chosen value belongs to one state of the range, which the compliances of the joints select: "

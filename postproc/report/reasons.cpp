@@ -99,12 +99,6 @@ std::string motion_text(const Evaluation& e) {
       moved, e.summary.message);
 }
 
-std::string friction_text(const Joints& joints) {
-  const auto [least, greatest] = joints.friction_range();
-  if (least == greatest) return fmt::format("a coefficient of friction of {:g}", least);
-  return fmt::format("coefficients of friction of {:g} to {:g}", least, greatest);
-}
-
 /// "the shape of the blocks, their weight and loads, a coefficient of friction of 0.4, no crushing (not
 /// checked)". Loads have their sums unless the reason of the verdict gives them.
 std::string assumptions(const Evaluation& e) {

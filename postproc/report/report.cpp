@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -59,6 +60,20 @@ std::string findings_heading(const Summary& s) {
   return has_chosen(s.ranges) ? "Findings in the chosen state" : "Findings in one admissible state";
 }
 
+/// Of the free blocks, to which a file may give densities of their own.
+std::string unit_weight_text(const Evaluation& e) {
+  const double gravity = e.scene.material.unit_weight / e.scene.material.density();
+  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  for (const Block& block : e.assembly.blocks) {
+    if (block.fixed) continue;
+    const double weight = 1e-3 * gravity * block.mass / block.volume;  // kN/m3
+    least = std::min(least, weight);
+    greatest = std::max(greatest, weight);
+  }
+  const std::string low = fmt::format("{:.4g}", least), high = fmt::format("{:.4g}", greatest);
+  return (low == high ? low : low + " to " + high) + " kN/m³";
+}
+
 std::string case_section(const Evaluation& e) {
   std::string out = "<h2>The case</h2>\n<dl>\n";
   const auto row = [&out](const std::string& name, const std::string& value) {
@@ -73,7 +88,7 @@ std::string case_section(const Evaluation& e) {
   row("Weight of the free blocks", force_text(s.weight_N));
   row("Total load, weight included", force_text(s.applied_load_N.norm()));
   row("Friction coefficient", fmt::format("{:g}", e.scene.joints.friction));
-  row("Unit weight", fmt::format("{:g} kN/m³", 1e-3 * e.scene.material.unit_weight));
+  row("Unit weight", unit_weight_text(e));
   const Compliance& c = e.scene.joints.compliance;
   const char* unit = c.per == Compliance::Per::point ? "m/N per contact point" : "m³/N per joint area";
   row("Joint compliance",

@@ -125,6 +125,8 @@ TEST(CertaintyMap, ColoursEachJointByTheWidthOfItsRangeOverItsMean) {
   ASSERT_EQ(unlimited.size(), 1u);
   EXPECT_EQ(unlimited[0][1], 2.0);
   EXPECT_EQ(blocks_of(figure, "unknown").at(0).size(), 0u);
+  EXPECT_NE(figure.commands.find("set xlabel 'along the wall (m)'"), std::string::npos)
+      << "it may run along y";
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ TEST(RangeReport, LeadsWithTheRangesAndSaysWhatIsCertainChosenAndAssumed) {
   EXPECT_EQ(html.find("The structure is at rest"), std::string::npos);
   for (const char* said :
        {"lies between 12.1 and 40 MN", "The limits are certain", "The chosen value belongs to one state",
-        "the friction coefficient of 0.4 are assumed", "up to 1000 times",
+        "their loads and a coefficient of friction of 0.4 are assumed", "up to 1000 times",
         "It does not mean that the history", "under Coulomb&#39;s law they may still fall",
         "<h2>Findings in the chosen state</h2>", "<td class=\"text\">∞</td>",
         "the one that the compliances choose"})
@@ -92,6 +92,17 @@ TEST(RangeReport, LeadsWithTheRangesAndSaysWhatIsCertainChosenAndAssumed) {
   }
   EXPECT_NE(read_text(post + "/ranges.csv").find("hoop force of ring 1,N,-300000,100000,inf"),
             std::string::npos);
+}
+
+TEST(RangeReport, AssumesTheFrictionOfAllJoints) {
+  const Assembly a = test::column(3);
+  Case scene = test::column_case();
+  scene.joints.friction = 0.7;
+  scene.joints.base.emplace().friction = 0.4;
+  const Evaluation e = test::evaluated(a, test::range_frames(a), test::range_summary(a), scene,
+                                       test::fresh_folder("range_frictions"));
+  const std::string assumed = range_conditions(e).front();
+  EXPECT_NE(assumed.find("coefficients of friction of 0.4 to 0.7 are assumed"), std::string::npos) << assumed;
 }
 
 TEST(RangeReport, AJointThatTheModelDoesNotHaveIsAnError) {

@@ -1,0 +1,30 @@
+// What a report says of the case.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "assembly/files/atomic_file.hpp"
+#include "tests/postproc/analysed_column.hpp"
+
+namespace cupola::case_section_test {
+namespace {
+
+// Files give blocks densities: 1800 and 2400 kg/m3 are 17.66 and 23.54 kN/m3, where the case has 18. A support
+// weighs nothing.
+TEST(CaseSection, UnitWeightsAreThoseOfTheBlocks) {
+  for (const bool alike : {true, false}) {
+    Assembly a = test::column(3);
+    a.blocks[0].density = 2700.0;
+    a.blocks[2].density = alike ? 1800.0 : 2400.0;
+    compute_mass_properties(&a);
+    const std::string post = test::analysed_column(
+        "densities", {test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4)}, test::column_summary(a), a);
+    EXPECT_NE(
+        read_text(post + "/report.html")
+            .find(fmt::format("<dt>Unit weight</dt><dd>{} kN/m³</dd>", alike ? "17.66" : "17.66 to 23.54")),
+        std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::case_section_test
