@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -125,6 +127,9 @@ void declare_case(Section& s, Case& the_case) {
   expect_face_loads(s, the_case);
   s.list_or_section("sweep", the_case.sweep, declare_swept_key, the_case.sample_file, declare_sample_file,
                     "parameter study: keys and the values they take, in all combinations");
+  std::set<std::string> swept;
+  s.rule(std::ranges::all_of(the_case.sweep, [&](const SweptKey& k) { return swept.insert(k.key).second; }),
+         "sweep", "names a key twice");
   s.optional_section("ensemble", the_case.ensemble, "random members: distributions of keys",
                      declare_ensemble);
   s.rule(!the_case.ensemble || (the_case.sweep.empty() && the_case.sample_file.file.empty()), "ensemble",

@@ -48,6 +48,9 @@ Case case_at(const Case& scene, double value) {
     }
     case LimitSearch::Parameter::acceleration:
       at.loads.gravity += value * g * horizontal(scene);
+      // What weighs has a mass, also where its weight is given in N.
+      for (std::optional<TopLoad>* top : {&at.loads.lantern, &at.loads.top_load})
+        if (*top && g > 0.0) (*top)->weight *= at.loads.gravity.norm() / g;
       break;
     case LimitSearch::Parameter::load:
       for (BlockForce& load : at.loads.forces) {

@@ -26,6 +26,9 @@ struct ForceCertificate {
 
 /// Whether the model determines its forces uniquely.
 struct ForcesUnique {
+  /// The reason where a conic solver ended at one of many states, which no compliance chose.
+  static constexpr const char* kOneOfMany = "they are one of the admissible states";
+
   bool value = true;
   std::string reason;  ///< a clause
 };

@@ -232,6 +232,8 @@ std::string share_of_weight(const Evaluation& e, double thrust) {
 std::string doubt_of(const Evaluation& e) {
   if (e.summary.critical && !is_stage(e.last.frame.role))
     return "at the critical value, not that of the case";
+  if (e.summary.forces_unique.reason == ForcesUnique::kOneOfMany)
+    return "of one of the admissible states: their range was not computed";
   if (e.scene.joints.have_strength()) return "";
   return "depends on the stiffness of the joints: the range over all states was not computed";
 }

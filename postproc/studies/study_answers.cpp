@@ -71,7 +71,7 @@ std::optional<KeyNumber> worst_cause(const std::vector<std::string>& names, RunC
   if (finished == 0) return std::nullopt;
   return KeyNumber{
       "It stands after settlement of", fmt::format("{} of {}", standing, counted(finished, "support")),
-      worst.empty() ? "no joint opens"
+      worst.empty() ? (standing == finished ? "one at a time; no joint opens" : "one at a time")
                     : fmt::format("one at a time; widest crack {} ({})", length_text(widest), worst)};
 }
 

@@ -230,7 +230,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
   summary.certified_force_error.bounds =
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
   summary.forces_unique = {false,
-                           state ? "they are one of the admissible states" : "no equilibrium was found"};
+                           state ? ForcesUnique::kOneOfMany : "no equilibrium was found"};
   if (limit.found)
     summarize_found(scene, limit, sinks, &summary);
   else

@@ -117,7 +117,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
                       "largest distance from the proven bound, relative to the larger end or to one block",
                       kGap};
   summary.certified_force_error.bounds = "the forces are one of the admissible states";
-  summary.forces_unique = {false, "they are one of the admissible states"};
+  summary.forces_unique = {false, ForcesUnique::kOneOfMany};
   const ChosenState chosen = chosen_state(scene, rigid, sinks);
   if (write_start(rigid, chosen, sinks, &summary)) {
     RangeRun run(rigid, objectives, scene, sinks);

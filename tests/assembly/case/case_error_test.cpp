@@ -105,6 +105,9 @@ const BadCase kBadCases[] = {
     {"MisspeltSweptKey", kGood + "sweep: [{key: joints.frction, values: [0.1]}]\n",
      "bad.yaml: error: sweep: --set joints.frction=0.1: error: joints.frction: unknown key; did you mean "
      "friction?"},
+    {"KeySweptTwice",
+     kGood + "sweep: [{key: joints.friction, values: [0.1]}, {key: joints.friction, values: [0.2]}]\n",
+     "bad.yaml:6:1: error: sweep: names a key twice"},
     {"SweptValueOutOfRange", kGood + "sweep: [{key: joints.friction, values: [0.1, -2]}]\n",
      "bad.yaml: error: sweep: --set joints.friction=-2: error: joints.friction = -2: must be >= 0"},
     {"BundledCaseMisspelt", "extends: cupola:dome_circlar\n",

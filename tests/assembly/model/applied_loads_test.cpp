@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "tests/assembly/scene.hpp"
 
 namespace cupola::applied_loads_test {
@@ -39,6 +40,19 @@ TEST(AppliedLoads, ALanternWeighsItsNewtonsOrItsMass) {
   EXPECT_EQ(applied_loads(loads, assembly).at(0).force.z(), -120.0);
   loads.lantern = TopLoad{.mass = 120.0};
   EXPECT_EQ(applied_loads(loads, assembly).at(0).force.z(), -600.0);
+}
+
+// Pushed sidewards by its own weight, a lantern of 120 N weighs as much downwards as before.
+TEST(AppliedLoads, ALanternOfNewtonsIsAcceleratedWithTheRest) {
+  Case scene;
+  scene.loads.gravity = {0.0, 0.0, -5.0};
+  scene.loads.lantern = TopLoad{.weight = 120.0};
+  scene.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
+  scene.analysis.limit.direction = {1.0, 0.0, 0.0};
+  for (const double g : {0.5, 1.0}) {
+    const Vec3 force = applied_loads(case_at(scene, g).loads, test::two_block_assembly()).at(0).force;
+    EXPECT_LE((force - Vec3(g * 120.0, 0.0, -120.0)).norm(), 1e-13) << "rounding of 120 N";
+  }
 }
 
 // A moment must move no centroid, and have no symmetric part: the mean stress of a block is the symmetric

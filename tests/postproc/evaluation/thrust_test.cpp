@@ -30,6 +30,16 @@ TEST(Thrust, OfStonesWithoutCoursesIsTheSumOverTheSupports) {
       << answer->detail;
 }
 
+// The stiffness of the joints chose nothing where a limit without a critical value shows a state that balances.
+TEST(Thrust, OfAStateOfAConicSolverDependsOnNoStiffness) {
+  Evaluation e = stones(Sheet::ThrustLines::radial);
+  EXPECT_NE(thrust_answer(e)->detail.find("depends on the stiffness"), std::string::npos);
+  e.summary.forces_unique = {false, ForcesUnique::kOneOfMany};
+  EXPECT_TRUE(
+      thrust_answer(e)->detail.ends_with("of one of the admissible states: their range was not computed"))
+      << thrust_answer(e)->detail;
+}
+
 TEST(Thrust, NeedsAnAxis) {
   EXPECT_FALSE(outward_thrust(stones(Sheet::ThrustLines::none)));
   Evaluation e = stones(Sheet::ThrustLines::none);
