@@ -9,6 +9,27 @@
 #include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
+namespace {
+
+/// The state of a solve with alpha <= 0 balances the loads, within the limits of its joints. Equilibrium may
+/// lack, over the largest load of a block, rounding or a small share of what every contact has to spare. A
+/// compressive strength is not spared by alpha: its excess is rounding, over the largest force.
+bool balances(const PullSolve& solve) {
+  constexpr double kRounding = 1e-9, kShare = 1e-3;
+  ConicSolution state;
+  state.gamma = admissible_state(solve);
+  state.v = solve.solution.v;
+  const ConicBounds bounds = conic_bounds(solve.scene.problem, state);
+  return bounds.imbalance <= std::max(kRounding, -kShare * solve.pull) && bounds.cone_violation <= kRounding;
+}
+
+/// No state without a pull exists whose forces are up to a multiple of those found, if any were.
+bool proves_pull(const PullSolve& solve) {
+  return solve.solution.gamma(Eigen::seq(0, Eigen::last, 3)).maxCoeff() > 0.0 &&
+         conic_bounds(solve.problem, solve.solution).lower > 0.0;
+}
+
+}  // namespace
 
 PullSolve solve_pull(double value, RigidScene scene, double estimate) {
   PullSolve solve;
@@ -23,11 +44,7 @@ PullSolve solve_pull(double value, RigidScene scene, double estimate) {
     solve.problem.strength_columns.assign(1, std::vector(rigid.contacts.strength.size(), pressed));
   }
   solve.solution = solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate});
-  // Imbalance that an admissible state may have, over the largest load of a block: rounding, or a small share
-  // of what every contact has to spare.
-  constexpr double kRounding = 1e-9, kShare = 1e-3;
   const double infinity = std::numeric_limits<double>::infinity();
-  const ConicBounds bounds = conic_bounds(solve.problem, solve.solution);
   solve.pull = solve.solution.primal;
   switch (solve.solution.outcome) {
     case ConicOutcome::unbounded:
@@ -40,8 +57,10 @@ PullSolve solve_pull(double value, RigidScene scene, double estimate) {
       break;
     case ConicOutcome::optimal:
     case ConicOutcome::stalled:
-      solve.decided = bounds.lower > 0.0 ||
-                      (solve.pull <= 0.0 && bounds.imbalance <= std::max(kRounding, -kShare * solve.pull));
+      const bool stands = solve.pull <= 0.0 && balances(solve);
+      const bool moves = !stands && proves_pull(solve);
+      if (moves && solve.pull <= 0.0) solve.pull = infinity;  // the solve has found none
+      solve.decided = stands || moves;
       break;
   }
   return solve;

@@ -3,6 +3,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
 #include "tests/solver/analysis/limit_scenes.hpp"
 
 namespace cupola::limit_bracket_test {
@@ -58,6 +59,23 @@ TEST(LimitBracket, FrictionsBelowTheLeastOfASearchAreRefused) {
   scene.joints.compliance.per = Compliance::Per::area;
   scene.joints.strength = {.tension = 100.0, .cohesion = 1000.0};
   EXPECT_THROW(run_limit(scene, block(), {}), InputError);
+}
+
+// A block of weight W on its unit face crushes its joint, of extent x, at a strength of W / x^2. Below that no
+// pull holds it either, and the solves stall. The tolerance is the width of the bracket, wherever it begins.
+TEST(LimitBracket, BeginsWhereJointsOfSmallExtentCrush) {
+  const double weight = free_weight(block(), testing::kG);
+  for (const double exact : {0.1, 0.5, 0.9}) {
+    for (const double low : {0.001, 0.01, 0.05}) {
+      Case scene = limit_case(Parameter::joint_extent, low, 1.0, 0.7);
+      scene.joints.compliance.per = Compliance::Per::area;
+      scene.joints.strength.compression = weight / (exact * exact);
+      const Summary summary = run_limit(scene, block(), {}).value();
+      EXPECT_EQ(summary.status, Status::stable) << summary.message;
+      ASSERT_TRUE(summary.critical) << summary.message;
+      EXPECT_NEAR(summary.critical->value, exact, 1e-4 * exact) << "from " << low;
+    }
+  }
 }
 
 }  // namespace
