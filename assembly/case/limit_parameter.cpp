@@ -90,10 +90,10 @@ std::optional<double> own_value(const Case& scene) {
     case joint_extent:
       return 1.0;
     case load:
+    case spread:  // a factor on the motion of the supports
       return if_in_bracket(1.0);
     case tilt:
     case acceleration:
-    case spread:
       return if_in_bracket(0.0);
     case lantern: {
       const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});

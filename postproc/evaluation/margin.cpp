@@ -14,10 +14,10 @@ std::optional<double> value_of_case(const Case& scene, const std::string& parame
 }
 
 std::optional<double> factor_of_safety(const Case& scene, const Summary& summary) {
-  if (!summary.critical) return std::nullopt;
+  if (!summary.critical || summary.status == Status::unconverged) return std::nullopt;
   const CriticalValue& critical = *summary.critical;
   const std::optional<double> own = value_of_case(scene, critical.parameter);
-  if (!own || *own == 0.0 || critical.stable == 0.0) return std::nullopt;
+  if (!own || !(*own * critical.stable > 0.0)) return std::nullopt;  // zero, or of other signs
   return critical.stable < critical.moving ? critical.stable / *own : *own / critical.stable;
 }
 

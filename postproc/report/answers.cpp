@@ -31,7 +31,8 @@ std::string value_text(double value, std::string unit, int digits = 5) {
 std::string distance_text(const Evaluation& e, const std::string& unit) {
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> factor = factor_of_safety(e.scene, e.summary);
-  if (!factor || critical.parameter == "load") return "";  // the critical load is the factor
+  const bool grows = critical.parameter == "load" && critical.stable < critical.moving;
+  if (!factor || grows) return "";  // the critical load is the factor
   const std::string own = value_text(*value_of_case(e.scene, critical.parameter), unit);
   return fmt::format("the case has {}{}", own, distance_from_limit(*factor, critical));
 }
@@ -142,7 +143,8 @@ VerdictWords verdict_words(const Evaluation& e) {
     return {parts.contains("It falls") ? "It stands, except for what falls"
                                        : "It stands, except for what is undecided",
             false};
-  if (!is_limit(e) || !e.summary.critical) return words_of_run(e.summary);
+  if (!is_limit(e) || !e.summary.critical || e.summary.status == Status::unconverged)
+    return words_of_run(e.summary);
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
   if (critical.parameter == "peak_stress") return words_of_run(e.summary);
@@ -157,7 +159,7 @@ VerdictWords verdict_words(const Evaluation& e) {
 }
 
 KeyNumber margin_answer(const Evaluation& e) {
-  if (e.summary.critical) return critical_answer(e);
+  if (e.summary.critical && e.summary.status != Status::unconverged) return critical_answer(e);
   if (const auto& robust = e.summary.robustness)
     return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
             fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees", robust->directions,

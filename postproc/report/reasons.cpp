@@ -137,7 +137,8 @@ std::string limit_text(const Evaluation& e) {
   }
   const bool holds = *factor >= 1.0;
   std::string text;
-  if (critical.parameter == "load")
+  const bool grows = critical.parameter == "load" && critical.stable < critical.moving;
+  if (grows)
     text =
         fmt::format("The applied loads can grow to {:.5g} times those of the case before it moves.", *factor);
   else if (critical.parameter == "joint_extent")
@@ -151,7 +152,7 @@ std::string limit_text(const Evaluation& e) {
                        : critical.stable < critical.moving ? "beyond"
                                                            : "below",
                        critical.moving);
-  if (critical.parameter == "load" && !holds)
+  if (grows && !holds)
     text = fmt::format("It bears only {:.5g} times the applied loads of the case.", *factor);
   if (critical.parameter == "joint_extent" && !holds)
     text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
@@ -189,7 +190,7 @@ std::string reason_for_verdict(const Evaluation& e) {
     text = carried_text(e);
   else if (e.last.frame.role == FrameRole::step && (s.status == Status::collapsed || moves(s.status)))
     text = motion_text(e);
-  else if (s.critical && !is_stage(e.last.frame.role))
+  else if (s.critical && s.status != Status::unconverged && !is_stage(e.last.frame.role))
     text = limit_text(e);
   else
     text = verdict_text(s, e.last.frame.role);
@@ -201,7 +202,7 @@ std::string reason_for_verdict(const Evaluation& e) {
 std::string certain_sentence(const Evaluation& e) {
   const Summary& s = e.summary;
   const bool limit = s.analysis == AnalysisType::limit && s.critical;
-  if (s.status == Status::unconverged && !limit && s.ranges.empty())
+  if (s.status == Status::unconverged && s.ranges.empty())
     return "Nothing is certain: the requested accuracy was not reached.";
   const bool stages = is_stage(e.last.frame.role);
   if (!at_rest(e) && (!s.critical || stages)) {

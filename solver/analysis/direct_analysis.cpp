@@ -229,8 +229,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
   const bool state = limit.gamma.size() > 0;
   summary.certified_force_error.bounds =
       state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
-  summary.forces_unique = {false,
-                           state ? ForcesUnique::kOneOfMany : "no equilibrium was found"};
+  summary.forces_unique = {false, state ? ForcesUnique::kOneOfMany : "no equilibrium was found"};
   if (limit.found)
     summarize_found(scene, limit, sinks, &summary);
   else

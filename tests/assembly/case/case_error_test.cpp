@@ -107,7 +107,7 @@ const BadCase kBadCases[] = {
      "friction?"},
     {"KeySweptTwice",
      kGood + "sweep: [{key: joints.friction, values: [0.1]}, {key: joints.friction, values: [0.2]}]\n",
-     "bad.yaml:6:1: error: sweep: names a key twice"},
+     "bad.yaml:6:8: error: sweep = [...]: names a key twice"},
     {"SweptValueOutOfRange", kGood + "sweep: [{key: joints.friction, values: [0.1, -2]}]\n",
      "bad.yaml: error: sweep: --set joints.friction=-2: error: joints.friction = -2: must be >= 0"},
     {"BundledCaseMisspelt", "extends: cupola:dome_circlar\n",

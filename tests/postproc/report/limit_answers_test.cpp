@@ -1,7 +1,9 @@
 // Answers of limits, and of searches that find no critical value.
 #include <gtest/gtest.h>
 
+#include "postproc/evaluation/margin.hpp"
 #include "postproc/report/answers.hpp"
+#include "postproc/report/reasons.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::limit_answers_test {
@@ -37,6 +39,53 @@ TEST(LimitAnswers, NoAccelerationIsLeftToWhatFalls) {
   EXPECT_EQ(margin.name, "Horizontal acceleration");
   EXPECT_EQ(margin.value, "none");
   EXPECT_EQ(margin.detail, "no equilibrium exists");
+}
+
+Evaluation limit_of(LimitSearch::Parameter parameter, double low, double stable, double moving) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
+  e.scene.analysis.limit.parameter = parameter;
+  e.scene.analysis.limit.low = low;
+  e.scene.analysis.limit.high = 10.0;
+  e.summary.critical = CriticalValue{to_string(parameter), stable, stable, moving};
+  return e;
+}
+
+// A corbel under a counterweight: it moves when its loads fall below half, and never when they grow.
+TEST(LimitAnswers, LoadsThatHoldItUpAreNeeded) {
+  const Evaluation e = limit_of(LimitSearch::Parameter::load, 0.0, 0.5, 0.49999);
+  EXPECT_EQ(verdict_words(e).words, "It stands");
+  const std::string reason = reason_for_verdict(e);
+  EXPECT_NE(reason.find(", 2 times what it needs: it stands down to 0.5"), std::string::npos) << reason;
+  EXPECT_NE(margin_answer(e).detail.find("2 times what it needs"), std::string::npos)
+      << margin_answer(e).detail;
+  const Evaluation short_of_it = limit_of(LimitSearch::Parameter::load, 0.0, 5.0, 4.9999);
+  EXPECT_EQ(verdict_words(short_of_it).words, "It falls");
+  EXPECT_EQ(reason_for_verdict(short_of_it).find("bears only"), std::string::npos);
+}
+
+TEST(LimitAnswers, NoFactorLeadsFromAPushToAPull) {
+  EXPECT_FALSE(factor_of_safety(limit_of(LimitSearch::Parameter::load, -100.0, -20.0, -20.001).scene,
+                                limit_of(LimitSearch::Parameter::load, -100.0, -20.0, -20.001).summary));
+}
+
+// The case moves its supports by once what it gives.
+TEST(LimitAnswers, SupportsThatSpreadFurtherThanTheCriticalFactorAreItsFall) {
+  const Evaluation e = limit_of(LimitSearch::Parameter::spread, 0.0, 0.625, 0.6254);
+  EXPECT_EQ(verdict_words(e).words, "It falls");
+  EXPECT_NEAR(factor_of_safety(e.scene, e.summary).value(), 0.625, 1e-15);
+}
+
+// Forces that do not balance at one end of the bracket decide nothing.
+TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
+  Evaluation e = limit_of(LimitSearch::Parameter::joint_extent, 0.0, 0.055, 0.054);
+  e.summary.status = Status::unconverged;
+  e.summary.message = "joint_extent: forces that do not balance the loads at 0.055";
+  EXPECT_FALSE(factor_of_safety(e.scene, e.summary));
+  EXPECT_EQ(verdict_words(e).words, "Undecided");
+  EXPECT_EQ(margin_answer(e).value, "unknown");
+  EXPECT_EQ(reason_for_verdict(e).find("shrink"), std::string::npos) << reason_for_verdict(e);
+  EXPECT_TRUE(certain_sentence(e).starts_with("Nothing is certain")) << certain_sentence(e);
 }
 
 }  // namespace
