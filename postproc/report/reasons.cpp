@@ -54,9 +54,9 @@ namespace {
 /// True if some joints are given a compressive strength.
 bool limits_pressure(const Joints& joints) {
   if (std::isfinite(joints.strength.compression)) return true;
-  const auto kinds = joints.kinds();
-  return std::ranges::any_of(kinds,
-                             [](const auto& kind) { return kind.second->compressive_strength.has_value(); });
+  const auto limits = [](const JointLawChange& law) { return law.compressive_strength.has_value(); };
+  return std::ranges::any_of(joints.kinds(), [&](const auto& kind) { return limits(*kind.second); }) ||
+         std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return limits(group.law); });
 }
 
 /// True if the run shows one equilibrium under the loads of its case: no limit, range or stage.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -20,6 +21,7 @@ constexpr double kNoFriction = 1e-5;
 /// The same of joints with cohesion c, whose cones begin at a pull of c over the friction: beyond these, few
 /// solves converge.
 constexpr double kLeastOfMortar = 1e-3;
+constexpr int kMostRaised = 3;  // times that it is doubled
 
 /// Solves at values of the parameter, counts and reports them.
 class PullTrials {
@@ -121,6 +123,7 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
                             LimitSearch::Parameter parameter, const ReportTrial& report) {
   const bool friction = parameter == LimitSearch::Parameter::friction;
   PullTrials trials(scene_at, report);
+  double floor = -std::numeric_limits<double>::infinity();
   if (friction) {
     const bool dry = trials.joints_at(high).strength.empty();
     const double least = dry ? kNoFriction : kLeastOfMortar;
@@ -128,9 +131,15 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
       throw InputError(
           fmt::format("analysis.limit.high = {}: must exceed {}, the least friction of a search{}", high,
                       least, dry ? "" : " with cohesion"));
+    floor = least;
     low = std::max(low, least);
   }
   Ends ends = first_ends(low, high, relative_width, parameter, &trials);
+  // Rounding, which differs between machines, decides whether a solve at the floor converges.
+  for (int raised = 0; raised < kMostRaised && low == floor && !ends.below.decided; ++raised) {
+    low = floor *= 2.0;
+    ends = first_ends(low, high, relative_width, parameter, &trials);
+  }
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
     if (!end.decided) return not_found(trials.counts(), unsolved_end(end.value));
   if (ends.below.admissible() == ends.above.admissible()) {

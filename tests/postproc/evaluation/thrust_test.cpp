@@ -30,7 +30,8 @@ TEST(Thrust, OfStonesWithoutCoursesIsTheSumOverTheSupports) {
       << answer->detail;
 }
 
-// The stiffness of the joints chose nothing where a limit without a critical value shows a state that balances.
+// The stiffness of the joints chose nothing where a limit without a critical value shows a state that
+// balances.
 TEST(Thrust, OfAStateOfAConicSolverDependsOnNoStiffness) {
   Evaluation e = stones(Sheet::ThrustLines::radial);
   EXPECT_NE(thrust_answer(e)->detail.find("depends on the stiffness"), std::string::npos);

@@ -450,6 +450,14 @@ TEST(FirstScreen, AMechanismShowsWhichJointsGiveWay) {
   EXPECT_NE(html.find("other contact forces might balance the loads"), std::string::npos);
 }
 
+TEST(FirstScreen, KnowsThatTheJointsOfSomeRingsMayCrush) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  EXPECT_NE(certain_sentence(e).find("no crushing (not checked)"), std::string::npos);
+  e.scene.joints.rings.push_back({});
+  e.scene.joints.rings.back().law.compressive_strength = 1e6;
+  EXPECT_EQ(certain_sentence(e).find("no crushing"), std::string::npos) << certain_sentence(e);
+}
+
 TEST(FirstScreen, StandsBeforeTheFirstHeadingAndEndsWithTheWorstJoints) {
   const Evaluation e = test::column_evaluation(0.3, 0.4);
   const std::string html = first_screen(e, {}, nullptr, "<section id=\"view\"></section>");
