@@ -19,7 +19,7 @@ ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, co
   out.normal = joint.patch.plane.normal;
   for (const Eigen::Vector2d& corner : joint.patch.outline)
     out.outline.push_back(joint.patch.position(corner));
-  out.area = joint.patch.area;
+  out.area = joint.area;
   out.centre = joint.centre_of_pressure;
   if (!joint.negligible) out.force = joint.wrench.force;
   for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {

@@ -64,12 +64,12 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->patch = planar_hull(points, normal.normalized());
 
   Vec3 weighted = Vec3::Zero();
-  double area = 0.0, open_area = 0.0, damaged_area = 0.0;
+  double open_area = 0.0, damaged_area = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row];
     joint->normal_force += n;
     weighted += n * (contacts.point[*row] - joint->patch.centroid);
-    area += contacts.area[*row];
+    joint->area += contacts.area[*row];
     joint->centroid += contacts.area[*row] * contacts.point[*row];
     if (std::abs(n) <= kNoPressure * contacts.force[*row].norm()) open_area += contacts.area[*row];
     if (contacts.area[*row] > 0.0)
@@ -80,12 +80,12 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     joint->opening = std::max(joint->opening, contacts.gap[*row]);
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }
-  joint->centroid = area > 0.0 ? Vec3(joint->centroid / area) : joint->patch.centroid;
+  joint->centroid = joint->area > 0.0 ? Vec3(joint->centroid / joint->area) : joint->patch.centroid;
   joint->centre_of_pressure = joint->patch.centroid;
   if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
   joint->friction_use = friction_use(contacts, begin, end);
-  if (area > 0.0) joint->open_share = open_area / area;
-  if (area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / area;
+  if (joint->area > 0.0) joint->open_share = open_area / joint->area;
+  if (joint->area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / joint->area;
   joint->wrench.point = joint->centre_of_pressure;
   for (auto row = begin; row != end; ++row)
     joint->wrench.add_force(contacts.point[*row], contacts.force[*row]);

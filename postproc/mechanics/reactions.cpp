@@ -1,7 +1,7 @@
 #include "postproc/mechanics/reactions.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <limits>
 #include <map>
 
@@ -12,25 +12,38 @@ namespace cupola {
 
 namespace {
 
-/// m: area over the thickness of the shell along the joint, which leans by the angle between its line through
-/// the thickness and the normal of the shell.
-double length_of(const PlanarHull& joint, const ShellAxes& shell) {
-  if (!shell.exists || !(shell.thickness > 0.0)) return std::numeric_limits<double>::quiet_NaN();
-  const Vec3 through = shell.t.cross(joint.plane.normal).normalized();
-  return joint.area * std::abs(through.dot(shell.n)) / shell.thickness;
+/// m: the area of a joint on a support over the thickness of the whole shell along the nearest facet on the
+/// beds of the block that it carries; NaN without one.
+double length_of(const JointWrench& joint, const Block& carried, const Shell& shell) {
+  const BedFacet* nearest = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int bed : {carried.ring, carried.ring + carried.num_rings}) {
+    if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
+    for (const BedFacet& f : shell.beds[bed]) {
+      const Vec3 middle = 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
+      const double distance = (middle - joint.centroid).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &f;
+    }
+  }
+  if (!nearest) return std::numeric_limits<double>::quiet_NaN();
+  const BedFacet& f = *nearest;
+  const double area = polygon_area(std::array{f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a});
+  const double length = 0.5 * ((f.intrados_b - f.intrados_a).norm() + (f.extrados_b - f.extrados_a).norm());
+  return joint.area * (f.to - f.from) * length / area;
 }
 
 }  // namespace
 
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
-                                        const std::vector<ShellAxes>& axes) {
+                                        const Shell& shell) {
   std::map<int, Reaction> found;
   for (const JointWrench& joint : joints.wrenches) {
     const bool a_fixed = assembly.blocks[joint.block_a].fixed;
     if (a_fixed == assembly.blocks[joint.block_b].fixed) continue;
     const int support = a_fixed ? joint.block_a : joint.block_b;
     const int carried = a_fixed ? joint.block_b : joint.block_a;
-    const ShellAxes& shell = axes[carried];
     const Vec3 force = wrench_on(joint, support).force;
     const int ring = ring_above_support(assembly.blocks[carried]);
     const bool is_new = !found.contains(support);
@@ -39,7 +52,7 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     reaction.ring = is_new ? ring : std::min(reaction.ring, ring);
     reaction.force += force;
     reaction.outward += force.dot(assembly.outward(ring, joint.centroid));
-    reaction.length += length_of(joint.patch, shell);
+    reaction.length += length_of(joint, assembly.blocks[carried], shell);
   }
   std::vector<Reaction> reactions;
   for (const auto& [block, reaction] : found) reactions.push_back(reaction);

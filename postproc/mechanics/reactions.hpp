@@ -19,7 +19,7 @@ struct Reaction {
 
 /// In the order of the blocks.
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
-                                        const std::vector<ShellAxes>& axes);
+                                        const Shell& shell);
 
 /// Per block, the part of the structure to which it belongs: free blocks that joints connect without passing
 /// a support. The largest part is 0; -1 for supports.

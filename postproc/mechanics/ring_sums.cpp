@@ -97,11 +97,11 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     const int carried = joint.carried;
     if (carried < 0 || assembly.blocks[carried].fixed) continue;
     normal_force[carried] += joint.normal_force;
-    area[carried] += joint.patch.area;
+    area[carried] += joint.area;
     const int k = ring_above_support(assembly.blocks[carried]);
     RingSum& ring = (*rings)[k];
-    ring.height += joint.patch.area * joint.patch.centroid.z();
-    ring_area[k] += joint.patch.area;
+    ring.height += joint.area * joint.patch.centroid.z();
+    ring_area[k] += joint.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
     ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);

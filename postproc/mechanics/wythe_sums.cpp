@@ -41,11 +41,11 @@ void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheR
 /// Adds what a bed joint tells about the ring of its upper block.
 void add_bed(const JointWrench& joint, Collected* at) {
   ++at->sum.joints;
-  at->sum.area += joint.patch.area;
+  at->sum.area += joint.area;
   at->bed_force += joint.normal_force;
   at->sum.largest_friction_use = std::fmax(at->sum.largest_friction_use, joint.friction_use);  // skips NaN
   at->sum.largest_kern = std::fmax(at->sum.largest_kern, joint.kern);
-  if (joint.patch.area > 0.0) at->pressures.push_back(joint.normal_force / joint.patch.area);
+  if (joint.area > 0.0) at->pressures.push_back(joint.normal_force / joint.area);
 }
 
 /// The sum with its means.

@@ -109,7 +109,7 @@ const Columns<JointWrench>& joint_columns() {
       {"axis_{}_m", "m", "point on the central axis", [](const J& j) { return j.axis.point; }},
       {"couple_length_m", "m", "couple over force on the central axis", &J::couple_length},
       {"normal_force_N", "N", "sum of the normal forces of the contact points", &J::normal_force},
-      {"area_m2", "m2", "area of the joint", [](const J& j) { return j.patch.area; }},
+      {"area_m2", "m2", "area of the joint", [](const J& j) { return j.area; }},
       {"eccentricity_m", "m", "distance of the centre of pressure from the joint's centroid",
        &J::eccentricity},
       {"edge_distance_m", "m", "distance of the centre of pressure from the joint's edge", &J::edge_distance},

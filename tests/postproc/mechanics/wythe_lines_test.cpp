@@ -127,7 +127,7 @@ struct Scene {
     joint.num_contacts = 1;
     joint.normal_force = normal_force;
     joint.centre_of_pressure = at;
-    joint.patch.area = 0.5;
+    joint.area = 0.5;
     joints.contacts.push_back(contacts.size());
     joints.wrenches.push_back(joint);
     contacts.joint.push_back(contacts.size());
