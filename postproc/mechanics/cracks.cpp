@@ -18,9 +18,8 @@ std::vector<Crack> cracks_of(const ContactTable& c, const JointWrenches& joints)
       open.push_back(c.point[row]);
       widest = std::max(widest, opening);
     }
-    if (open.size() < 2) continue;
+    if (open.empty()) continue;
     Crack crack{static_cast<int>(j), planar_hull(open, joint.patch.plane.normal), 0.0, widest};
-    if (crack.open.outline.size() < 2) continue;
     for (const Eigen::Vector2d& p : crack.open.outline)
       for (const Eigen::Vector2d& q : crack.open.outline)
         crack.extent = std::max(crack.extent, (p - q).norm());

@@ -10,12 +10,12 @@ namespace cupola {
 /// floor of lengths.
 struct Crack {
   int joint = 0;            ///< index into JointWrenches::wrenches
-  PlanarHull open;          ///< an area or a line
-  double extent = 0.0;      ///< m, largest distance between two of its corners
+  PlanarHull open;          ///< an area, a line or a point
+  double extent = 0.0;      ///< m, largest distance between two of its corners; 0: a single point
   double widest_gap = 0.0;  ///< m
 };
 
-/// Joints with at least two open contact points that lie apart.
+/// Joints with open contact points.
 std::vector<Crack> cracks_of(const ContactTable& contacts, const JointWrenches& joints);
 
 }  // namespace cupola

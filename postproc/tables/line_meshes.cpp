@@ -116,7 +116,7 @@ Mesh cracks_mesh(const Evaluation& e) {
     std::vector<int> ids;
     for (const Eigen::Vector2d& corner : crack.open.outline)
       ids.push_back(add_point(&mesh, crack.open.position(corner)));
-    if (ids.size() > 2) ids.push_back(ids.front());
+    if (ids.size() != 2) ids.push_back(ids.front());  // a single point makes a line of no length
     mesh.add_cell(CellType::polyline, ids);
     joint_id.push_back(crack.joint);
     crack_id.push_back(crack_of[crack.joint]);

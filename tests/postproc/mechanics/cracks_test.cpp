@@ -36,6 +36,21 @@ TEST(Cracks, RunAlongTheOpenEdgeOfEveryBed) {
   EXPECT_EQ(s.widest_crack_m.value(), 2e-3);
 }
 
+// A block that lifts one corner: the widest crack is there, although a point has no length.
+TEST(Cracks, OfASinglePointCount) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  frame.contacts.gap[0] = 2e-3;
+  frame.contacts.normal_force[0] = 0.0;
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  ASSERT_EQ(e.joint_cracks.size(), 1u);
+  EXPECT_EQ(e.joint_cracks[0].extent, 0.0);
+  const PostSummary s = post_summary(e);
+  EXPECT_EQ(s.crack_length_m.value(), 0.0);
+  EXPECT_EQ(s.widest_crack_m.value(), 2e-3);
+}
+
 // Rounding errors of the contact points open no joint: the floor is 1e-6 of the size of a block.
 TEST(Cracks, AreWiderThanTheFloorOfLengths) {
   const Evaluation e = evaluated_with(1e-12);
