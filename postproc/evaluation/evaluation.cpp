@@ -372,7 +372,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   warn_of_props(&e);
   e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
   if (at_rest(e)) e.cracks = shell_cracks(e.assembly, e.last.frame.contacts, e.last.joints, e.axes);
-  e.reactions = support_reactions(e.assembly, e.last.joints, e.shell);
+  const TieTable& ties = e.last.frame.ties;
+  const int restraints = 2 * static_cast<int>(scene.supports.restraints.size());  // come last, both signs
+  e.reactions = support_reactions(e.assembly, e.last.joints, e.shell, ties, ties.size() - restraints);
   e.parts = connected_parts(e.assembly, e.last.joints);
   find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "assembly/base/disjoint_sets.hpp"
+#include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 
 namespace cupola {
@@ -37,7 +38,7 @@ double length_of(const JointWrench& joint, const Block& carried, const Shell& sh
 }  // namespace
 
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
-                                        const Shell& shell) {
+                                        const Shell& shell, const TieTable& ties, int num_ties) {
   std::map<int, Reaction> found;
   for (const JointWrench& joint : joints.wrenches) {
     const bool a_fixed = assembly.blocks[joint.block_a].fixed;
@@ -46,13 +47,19 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     const int carried = a_fixed ? joint.block_b : joint.block_a;
     const Vec3 force = wrench_on(joint, support).force;
     const int ring = ring_above_support(assembly.blocks[carried]);
-    const bool is_new = !found.contains(support);
-    Reaction& reaction = found[support];
-    reaction.block = support;
-    reaction.ring = is_new ? ring : std::min(reaction.ring, ring);
+    Reaction& reaction = found.try_emplace(support, Reaction{support, ring}).first->second;
+    reaction.ring = std::min(reaction.ring, ring);
     reaction.force += force;
     reaction.outward += force.dot(assembly.outward(ring, joint.centroid));
     reaction.length += length_of(joint, assembly.blocks[carried], shell);
+  }
+  for (int i = 0; i < num_ties; ++i) {
+    const int a = ties.block_a[i], b = ties.block_b[i];
+    const bool a_fixed = assembly.blocks[a].fixed;
+    if (a_fixed == assembly.blocks[b].fixed) continue;
+    const int support = a_fixed ? a : b, ring = ring_above_support(assembly.blocks[a_fixed ? b : a]);
+    Reaction& reaction = found.try_emplace(support, Reaction{support, ring}).first->second;
+    reaction.force += a_fixed ? Vec3(-tie_force_on_b(ties, i)) : tie_force_on_b(ties, i);
   }
   std::vector<Reaction> reactions;
   for (const auto& [block, reaction] : found) reactions.push_back(reaction);

@@ -7,19 +7,19 @@
 
 namespace cupola {
 
-/// What the structure does to one support: a fixed block with at least one joint.
+/// What the structure does to one support: a fixed block with at least one joint or tie.
 struct Reaction {
   int block = 0;
   int ring = 0;               ///< lowest course on it
-  Vec3 force = Vec3::Zero();  ///< N, of its joints on the support
+  Vec3 force = Vec3::Zero();  ///< N, of its joints and ties on the support
   double outward = 0.0;       ///< N, sum of its joints along Assembly::outward of the centroid of each
   double length =
       0.0;  ///< m, of its joints along the course: area over the thickness of the shell; NaN without one
 };
 
-/// In the order of the blocks.
+/// In the order of the blocks. `num_ties`: of the ties those before the restraints, which push on the ground.
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
-                                        const Shell& shell);
+                                        const Shell& shell, const TieTable& ties = {}, int num_ties = 0);
 
 /// Per block, the part of the structure to which it belongs: free blocks that joints connect without passing
 /// a support. The largest part is 0; -1 for supports.

@@ -1,6 +1,16 @@
+#include <limits>
+
 #include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
+namespace {
+
+/// NaN for the anchor of a tie alone, which has no length.
+double per_metre(double force, const Reaction& reaction) {
+  return reaction.length > 0.0 ? force / reaction.length : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
 
 // clang-format off: one line per column.
 
@@ -93,9 +103,9 @@ const Columns<Reaction>& reaction_columns() {
       {"length_m", "m", "of its joints along the course, area over thickness; empty: no thickness",
        &S::length},
       {"vertical_N_per_m", "N/m", "downwards on the support, per metre of support",
-       [](const S& r) { return -r.force.z() / r.length; }},
+       [](const S& r) { return per_metre(-r.force.z(), r); }},
       {"outward_N_per_m", "N/m", "outwards, per metre of support",
-       [](const S& r) { return r.outward / r.length; }},
+       [](const S& r) { return per_metre(r.outward, r); }},
   };
   return columns;
 }

@@ -33,5 +33,29 @@ TEST(Reactions, AreasAreThoseOfTheContactsNotOfTheirHull) {
   EXPECT_NEAR(support_reactions(a, joints, shell).at(0).length, 0.6, kRounding);
 }
 
+// A tie of 1 kN from block 2 down to the support pulls it up, and another, from block 3 to an anchor without
+// joints, pulls that; a restraint, which follows the ties, pushes on the ground.
+TEST(Reactions, CountTheTiesOfTheSupports) {
+  Assembly a = test::column(3);
+  a.blocks.push_back(a.blocks[0]);
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  const Frame frame = test::column_at_rest(test::column(3), kGravity, 0.0, 0.6, 0.4);
+  TieTable ties;
+  ties.block_a = {0, 3, 0};
+  ties.block_b = {2, 4, 1};
+  ties.point_a = {Vec3(0.6, 0.4, 0.0), Vec3(0.6, 0.4, 1.25), Vec3(-1.0, 0.4, 0.25)};
+  ties.point_b = {Vec3(0.6, 0.4, 0.75), Vec3(5.0, 0.4, 1.25), Vec3(0.0, 0.4, 0.25)};
+  ties.force = {1e3, 2e3, 4e3};
+  ties.strut = {0, 0, 0};
+  const std::vector<Reaction> reactions =
+      support_reactions(a, joint_wrenches(a, frame.contacts, shell), shell, ties, 2);
+  ASSERT_EQ(reactions.size(), 2u);
+  const double weight = free_weight(a, kGravity);
+  EXPECT_LT((reactions[0].force - Vec3(0, 0, 1e3 - weight)).norm(), 1e-12 * weight) << "rounding of sums";
+  EXPECT_EQ(reactions[1].block, 4);
+  EXPECT_EQ(reactions[1].force, Vec3(-2e3, 0, 0));
+  EXPECT_EQ(reactions[1].length, 0.0);
+}
+
 }  // namespace
 }  // namespace cupola::reactions_test
