@@ -59,7 +59,7 @@ const Sheet* Assembly::sheet_of(int ring) const {
 }
 
 Sheet Assembly::axis_of(int ring) const {
-  const Sheet* sheet = sheet_of(ring);
+  const Sheet* sheet = num_rings == 0 && !sheets.empty() ? &sheets.front() : sheet_of(ring);
   return sheet ? *sheet : Sheet{};
 }
 
@@ -77,8 +77,7 @@ std::pair<int, int> Assembly::stack_of(int ring) const {
 }
 
 Vec3 Assembly::outward(int ring, const Vec3& point) const {
-  const Sheet* sheet = num_rings == 0 && !sheets.empty() ? &sheets.front() : sheet_of(ring);
-  if (const std::optional<Vec3> own = sheet ? sheet->outward(point) : std::nullopt) return *own;
+  if (const std::optional<Vec3> own = axis_of(ring).outward(point)) return *own;
   for (size_t i = sheets.size(); i-- > 0;)
     if (const std::optional<Vec3> of_vault = sheets[i].outward(point)) return *of_vault;
   return outward_at(point, false);

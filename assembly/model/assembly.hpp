@@ -117,7 +117,7 @@ struct Assembly {
   }
   /// The sheet to which a course belongs; null if there is none.
   const Sheet* sheet_of(int ring) const;
-  /// That sheet, whose axis its whole stack has; without sheets the z axis.
+  /// That sheet, whose axis its whole stack has, without courses the first; without sheets the z axis.
   Sheet axis_of(int ring) const;
   /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
   std::pair<int, int> stack_of(int ring) const;

@@ -207,9 +207,10 @@ std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput&
     const Wrench wrench = on_bed ? wrench_at_bed(input, b, bed) : e.last.from_below[b];
     const CentralAxis axis = central_axis(wrench);
     const double height = e.rings[on_bed ? bed : block.ring].height;
-    if (axis.exists)
-      resultants.push_back({b, block.kind, wrench, axis_in_plane(axis, wrench.force, {e.up, height}),
-                            couple_length(wrench, e.last.joints.floor)});
+    if (!axis.exists) continue;
+    const Vec3 point = axis_in_plane(axis, wrench.force, {e.up, height});
+    resultants.push_back({b, block.kind, wrench, point, azimuth(e.assembly, b, b, point),
+                          couple_length(wrench, e.last.joints.floor)});
   }
   return resultants;
 }

@@ -51,6 +51,7 @@ struct BedResultant {
   BlockKind kind = BlockKind::standard;
   Wrench wrench;               ///< about the block's centroid
   Vec3 point = Vec3::Zero();   ///< m, on its central axis, at the mean height of the bed
+  double azimuth = 0.0;        ///< rad, of the point about the axis of the block
   double couple_length = 0.0;  ///< m; NaN if the wrench is negligible
 };
 

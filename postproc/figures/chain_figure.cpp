@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -11,13 +10,14 @@ namespace cupola {
 namespace {
 
 /// Azimuth (deg) and tension of the bars of a chain, by azimuth.
-std::vector<std::vector<double>> bars_by_azimuth(const TieTable& ties, int chain, double per_newton) {
+std::vector<std::vector<double>> bars_by_azimuth(const Evaluation& e, int chain, double per_newton) {
+  const TieTable& ties = e.last.frame.ties;
   std::vector<std::vector<double>> rows;
   for (int i = 0; i < ties.size(); ++i) {
     if (ties.chain[i] != chain) continue;
     const Vec3 middle = 0.5 * (ties.point_a[i] + ties.point_b[i]);
-    const double azimuth = std::atan2(middle.y(), middle.x()) * 180.0 / std::numbers::pi;
-    rows.push_back({azimuth < 0.0 ? azimuth + 360.0 : azimuth, per_newton * ties.force[i]});
+    const double angle = azimuth(e.assembly, ties.block_a[i], ties.block_b[i], middle) * kDegrees;
+    rows.push_back({angle < 0.0 ? angle + 360.0 : angle, per_newton * ties.force[i]});
   }
   std::sort(rows.begin(), rows.end());
   return rows;
@@ -59,7 +59,7 @@ Figure chain_figure(const Evaluation& e) {
     if (!is_round(e, static_cast<int>(c))) continue;
     const char* colour = kColours[c % kColours.size()];
     const std::string data = fmt::format("chain{}", c);
-    const auto rows = bars_by_azimuth(e.last.frame.ties, static_cast<int>(c), unit.per_newton);
+    const auto rows = bars_by_azimuth(e, static_cast<int>(c), unit.per_newton);
     if (rows.empty()) continue;
     f.commands += data_block(data, rows);
     plots += fmt::format("{}${} w lp lc rgb '{}' pt 7 ps 0.5", plots.empty() ? "plot " : ", ", data, colour);

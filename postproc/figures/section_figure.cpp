@@ -45,7 +45,7 @@ SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
     const Vec3 &x = r.point, &f = r.wrench.force;
     out.segments.push_back({x.x(), x.y(), out.scale * f.x(), out.scale * f.y()});
     (r.kind == BlockKind::herringbone ? out.norms_upright : out.norms)
-        .push_back({is_vault(e) ? azimuth(x) * kDegrees : x.x(), out.unit.per_newton * f.norm()});
+        .push_back({is_vault(e) ? r.azimuth * kDegrees : x.x(), out.unit.per_newton * f.norm()});
   }
   for (Rows* rows : {&out.norms, &out.norms_upright}) std::sort(rows->begin(), rows->end());
   return out;

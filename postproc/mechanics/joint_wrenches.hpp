@@ -18,7 +18,7 @@ struct JointWrench : Joint {
   /// The upper block, whose course the joint carries. -1 for other kinds, and where the last course of an arch
   /// stands on another sheet: the joint is over that course, and carries none.
   int carried = -1;
-  PlanarHull patch;  ///< hull of the contact points in their mean plane
+  PlanarHull patch;   ///< hull of the contact points in their mean plane
   double area = 0.0;  ///< m2, sum over the contact points; the hull is larger where it fills in a bend or gap
   /// m, of its area: mean of the contact points weighted by their areas, on which the patch's hull may differ
   /// where it is not plane or not convex. Where outwards is measured.

@@ -165,6 +165,11 @@ double azimuth(const Vec3& point) {
   return std::atan2(point.y(), point.x());
 }
 
+double azimuth(const Assembly& assembly, int block_a, int block_b, const Vec3& point) {
+  const int ring = std::max(assembly.blocks[block_a].ring, assembly.blocks[block_b].ring);
+  return azimuth(assembly.axis_of(ring).own(point));
+}
+
 double wrapped(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }

@@ -86,6 +86,9 @@ double block_size(const Assembly& assembly);
 /// Azimuth of a point about the z axis, rad, in (-pi, pi].
 double azimuth(const Vec3& point);
 
+/// The same about the axis of the higher of two blocks.
+double azimuth(const Assembly& assembly, int block_a, int block_b, const Vec3& point);
+
 /// The same angle in [-pi, pi].
 double wrapped(double angle);
 

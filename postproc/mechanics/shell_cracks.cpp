@@ -162,7 +162,7 @@ std::vector<std::vector<int>> joints_of_blocks(const Assembly& assembly, const J
   return of;
 }
 
-ShellCrack crack_of(const std::vector<OpenJoint>& open, std::vector<int> members,
+ShellCrack crack_of(const Assembly& assembly, const std::vector<OpenJoint>& open, std::vector<int> members,
                     const JointWrenches& joints) {
   const auto key = [&](int k) { return std::pair(joints.wrenches[open[k].joint].ring, open[k].joint); };
   std::ranges::sort(members, {}, key);
@@ -185,7 +185,9 @@ ShellCrack crack_of(const std::vector<OpenJoint>& open, std::vector<int> members
     weight += o.widest;
   }
   crack.middle /= weight;
-  crack.start = joints.wrenches[crack.joints.front()].patch.centroid;
+  const JointWrench& first = joints.wrenches[crack.joints.front()];
+  crack.azimuth = azimuth(assembly, first.block_a, first.block_b, crack.middle);
+  crack.start = first.patch.centroid;
   crack.end = joints.wrenches[crack.joints.back()].patch.centroid;
   return crack;
 }
@@ -222,7 +224,7 @@ std::vector<ShellCrack> shell_cracks(const Assembly& assembly, const ContactTabl
   for (size_t k = 0; k < open.size(); ++k)
     groups[joined.root(static_cast<int>(k))].push_back(static_cast<int>(k));
   std::vector<ShellCrack> cracks;
-  for (auto& [root, members] : groups) cracks.push_back(crack_of(open, std::move(members), joints));
+  for (auto& [root, members] : groups) cracks.push_back(crack_of(assembly, open, std::move(members), joints));
   std::ranges::stable_sort(cracks, std::ranges::greater(), &ShellCrack::width);
   return cracks;
 }

@@ -31,6 +31,7 @@ struct ShellCrack {
   Vec3 start = Vec3::Zero();   ///< m, centre of its first joint
   Vec3 end = Vec3::Zero();     ///< m, centre of its last joint
   Vec3 middle = Vec3::Zero();  ///< m, mean of the centres of its joints, weighted by their widths
+  double azimuth = 0.0;        ///< rad, of the middle about the axis of the shell
 };
 
 /// The cracks of a frame, the widest first. Joints whose gaps stay below kHairline of the widest are left

@@ -57,7 +57,8 @@ std::optional<CrackAgreement> crack_agreement(const Evaluation& e) {
     const double gap = c.crack_opening.empty() ? c.gap[i] : c.crack_opening[i];
     const bool is_head = c.kind[i] == JointKind::head || c.kind[i] == JointKind::other;
     if (!is_head || c.normal_force[i] > 0.0 || gap <= e.last.joints.floor.length) continue;
-    const std::vector<ObservedPlace*> nearest = places_near(azimuth(c.point[i]) * kDegrees, &out.places);
+    const double angle = azimuth(e.assembly, c.block_a[i], c.block_b[i], c.point[i]);
+    const std::vector<ObservedPlace*> nearest = places_near(angle * kDegrees, &out.places);
     for (ObservedPlace* place : nearest) {
       place->model_width = std::max(place->model_width, gap);
       place->model_volume += gap * c.area[i] / static_cast<double>(nearest.size());

@@ -37,6 +37,21 @@ class Vault {
           for (const int below : {slot, (slot + (ring % 2 ? 1 : kBlocks - 1)) % kBlocks})
             add_bed(ring, slot, below);
       }
+    evaluate();
+  }
+  void move(const Vec3& by) {
+    for (Sheet& sheet : assembly_.sheets) sheet.origin += by;
+    for (std::vector<Vec3>* points : {&assembly_.vertices, &contacts_.point})
+      for (Vec3& point : *points) point += by;
+    evaluate();
+  }
+  std::vector<ShellCrack> cracks() const {
+    return shell_cracks(assembly_, contacts_, evaluation_.last.joints, evaluation_.axes);
+  }
+  Evaluation& evaluation() { return evaluation_; }
+
+ private:
+  void evaluate() {
     shell_ = shell_of(assembly_, Vec3::UnitZ());
     evaluation_.assembly = assembly_;
     evaluation_.shell = shell_;
@@ -45,12 +60,6 @@ class Vault {
     evaluation_.last.joints = joint_wrenches(assembly_, contacts_, shell_);
     evaluation_.axes = shell_axes(assembly_, shell_);
   }
-  std::vector<ShellCrack> cracks() const {
-    return shell_cracks(assembly_, contacts_, evaluation_.last.joints, evaluation_.axes);
-  }
-  Evaluation& evaluation() { return evaluation_; }
-
- private:
   static double angle_of(int ring, int slot) { return (slot + (ring % 2 ? 0.5 : 0.0)) * kWidth; }
   static Vec3 point(int ring, bool upper, double angle, bool outer) {
     const double r = outer ? 11.0 : 10.0, t = 0.02 * (upper ? ring + 1 : ring), rho = r * std::cos(t) - 3.0;
@@ -180,6 +189,18 @@ TEST(ObservedCracks, AgreeByTheOverlapOfTheirShares) {
   EXPECT_NEAR(found.agreement, 0.6 + (1.0 - first), 1e-12);
   EXPECT_NEAR(found.by_chance, 0.25 + 0.25, 1e-12);
   EXPECT_EQ(found.places[0].model_width, 5e-3);
+}
+
+// The vault as part of a building whose origin is elsewhere: azimuths are about the axis of the vault.
+TEST(ObservedCracks, AreAboutTheAxisOfTheVault) {
+  Vault vault(two_cracks());
+  Evaluation& e = vault.evaluation();
+  e.scene.postproc.observed = written("azimuth_deg,width_m\n45,0.006\n135,0\n225,0.004\n315,0\n");
+  const double agreement = crack_agreement(e).value().agreement, azimuth = vault.cracks()[0].azimuth;
+  EXPECT_NEAR(azimuth * kDegrees, 56.25, 5.0) << "between the head joints of even and odd courses";
+  vault.move(Vec3(40.0, 25.0, 3.0));
+  EXPECT_NEAR(crack_agreement(e).value().agreement, agreement, 1e-12);
+  EXPECT_NEAR(vault.cracks()[0].azimuth, azimuth, 1e-12) << "rounding of coordinates of 50 m";
 }
 
 // A joint at 45 degrees is as near to the place at 0 as to that at 90, whatever the rounding of its azimuth.
