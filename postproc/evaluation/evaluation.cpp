@@ -66,6 +66,23 @@ void displace_mechanism(const Assembly& assembly, Frame* frame) {
   }
 }
 
+/// Takes the motion of the ground out of a frame, so that its points are where the masonry was built. That of
+/// the contacts and ties, some way before the end of the step, is that of a support.
+void bring_back_to_site(const Assembly& assembly, Frame* frame) {
+  const Vec3 ground = ground_displacement(assembly, *frame);
+  BlockTable& blocks = frame->blocks;
+  for (Vec3& x : blocks.position) x -= ground;
+  if (blocks.contact_position.empty()) return;
+  const auto support = std::ranges::find_if(assembly.blocks, &Block::fixed);
+  const size_t b = support == assembly.blocks.end() ? 0 : support - assembly.blocks.begin();
+  const Vec3 then = ground.isZero(0.0)
+                        ? ground
+                        : blocks.contact_position[b] - assembly.blocks[b].centroid - blocks.displacement[b];
+  for (std::vector<Vec3>* points :
+       {&blocks.contact_position, &frame->contacts.point, &frame->ties.point_a, &frame->ties.point_b})
+    for (Vec3& x : *points) x -= then;
+}
+
 std::string frame_name(int index) {
   return fmt::format("frame {}", index);
 }
@@ -314,6 +331,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
+  bring_back_to_site(e.assembly, &out.frame);
   if (e.scene.analysis.plane) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   if (mechanism) displace_mechanism(e.assembly, &out.frame);

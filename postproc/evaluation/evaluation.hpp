@@ -120,8 +120,8 @@ std::vector<std::string> notices(const Evaluation& evaluation);
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results,
                     const std::vector<std::string>& doubts = {});
 
-/// Evaluates one frame with the assembly, loads and shell of an evaluation. The blocks of a mechanism are
-/// displaced along their velocities, far enough to be seen.
+/// Evaluates one frame with the assembly, loads and shell of an evaluation, without the motion of the ground.
+/// The blocks of a mechanism are displaced along their velocities, far enough to be seen.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);
 
 }  // namespace cupola

@@ -65,7 +65,6 @@ Mesh& DisplacedBlocks::at(const FrameEvaluation& e) {
   mesh_.points.reserve(3 * vertices_.size());
   MeshDoubles displacement;
   displacement.reserve(3 * vertices_.size());
-  const Vec3 ground = ground_displacement(assembly, e.frame);
   std::vector<Mat3> rotation;
   for (const Eigen::Vector4d& q : e.frame.blocks.quaternion_wxyz)
     rotation.push_back(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix());
@@ -74,7 +73,7 @@ Mesh& DisplacedBlocks::at(const FrameEvaluation& e) {
     const Vec3 moved =
         e.frame.blocks.position[b] + rotation[b] * (vertices_[v] - assembly.blocks[b].centroid);
     add_point(&mesh_, moved);
-    append(moved - vertices_[v] - ground, &displacement);
+    append(moved - vertices_[v], &displacement);
   }
   mesh_.point_data.clear();
   mesh_.point_data.push_back({"displacement_m", 3, std::move(displacement)});

@@ -96,6 +96,15 @@ TEST(Evaluation, SectionsCutTheBlocks) {
   EXPECT_NEAR(polygon_area(e.sections[0].polygons[0].outline), 0.96, 1e-12);
 }
 
+Evaluation evaluated_path(const Assembly& a, const Frame& frame) {
+  Summary summary = column_summary(a);
+  summary.analysis = AnalysisType::path;
+  summary.steps = 1;
+  Case scene = column_case();
+  scene.postproc.planes = {{"middle", {0.0, 0.0, 0.8}, Vec3::UnitZ()}};
+  return evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
+}
+
 // On a path the column stands 0.3 m aside: so do the outlines of sections and planes, as their resultants do.
 TEST(Evaluation, SectionsCutTheBlocksWhereTheyStand) {
   const Assembly a = test::column(3);
@@ -103,12 +112,8 @@ TEST(Evaluation, SectionsCutTheBlocksWhereTheyStand) {
   const Vec3 aside(0.3, 0.0, 0.0);
   for (Vec3& point : frame.contacts.point) point += aside;
   for (Vec3& position : frame.blocks.position) position += aside;
-  Summary summary = column_summary(a);
-  summary.analysis = AnalysisType::path;
-  summary.steps = 1;
-  Case scene = column_case();
-  scene.postproc.planes = {{"middle", {0.0, 0.0, 0.8}, Vec3::UnitZ()}};
-  const Evaluation e = evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
+  for (Vec3& displacement : frame.blocks.displacement) displacement = aside;
+  const Evaluation e = evaluated_path(a, frame);
   ASSERT_EQ(e.sections.size(), 1u);
   ASSERT_EQ(e.planes.size(), 1u);
   for (const std::vector<CutPolygon>& cut : {e.sections[0].polygons, e.planes[0].polygons}) {
@@ -116,6 +121,31 @@ TEST(Evaluation, SectionsCutTheBlocksWhereTheyStand) {
     EXPECT_NEAR((polygon_centroid(cut[0].outline) - Vec3(0.9, 0.4, 0.8)).norm(), 0.0, 1e-12);
   }
   for (const BedResultant& r : e.sections[0].resultants) EXPECT_NEAR(r.point.x(), 0.9, 1e-12);
+}
+
+// The ground has carried the column 3 m away, of them 2.9 m when its contacts were found: all is where it was
+// built.
+TEST(Evaluation, LeavesTheMotionOfTheGroundOut) {
+  const Assembly a = test::column(3);
+  const Frame still = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  Frame frame = still;
+  BlockTable& blocks = frame.blocks;
+  const Vec3 then(2.9, 0.0, 0.0);
+  for (const Vec3& position : still.blocks.position) blocks.contact_position.push_back(position + then);
+  blocks.contact_quaternion_wxyz = blocks.quaternion_wxyz;
+  for (Vec3& point : frame.contacts.point) point += then;
+  for (Vec3& position : blocks.position) position.x() += 3.0;
+  const Evaluation e = evaluated_path(a, frame);
+  constexpr double kRounding = 1e-14;  // of coordinates of 3 m
+  const auto expect_at = [](const std::vector<Vec3>& found, const std::vector<Vec3>& expected) {
+    ASSERT_EQ(found.size(), expected.size());
+    for (size_t i = 0; i < found.size(); ++i) EXPECT_LT((found[i] - expected[i]).norm(), kRounding);
+  };
+  expect_at(e.last.frame.contacts.point, still.contacts.point);
+  expect_at(e.last.frame.blocks.position, still.blocks.position);
+  expect_at(e.last.frame.blocks.contact_position, still.blocks.position);
+  ASSERT_EQ(e.sections.at(0).polygons.size(), 1u);
+  EXPECT_LT((polygon_centroid(e.sections[0].polygons[0].outline) - Vec3(0.6, 0.4, 0.8)).norm(), kRounding);
 }
 
 TEST(Evaluation, LoadsFollowTheirTimeFunction) {

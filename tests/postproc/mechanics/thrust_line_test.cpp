@@ -227,6 +227,7 @@ TEST(ThrustLine, StandsWhereTheContactsWereFound) {
   Frame frame = e.last.frame;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
     frame.blocks.position[b] += Vec3(0.0, 0.05, 0.0);
+    frame.blocks.displacement[b] += Vec3(0.0, 0.05, 0.0);
     frame.blocks.contact_position.push_back(move * e.assembly.blocks[b].centroid);
     frame.blocks.contact_quaternion_wxyz.emplace_back(turn.w(), turn.x(), turn.y(), turn.z());
   }

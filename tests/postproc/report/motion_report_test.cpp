@@ -77,7 +77,7 @@ TEST(ReturnedMotion, IsDrawnFromTheGround) {
   for (size_t b = 0; b < blocks.position.size(); ++b)
     EXPECT_NEAR(film.shifts()[3 * b], blocks.displacement[b].x(), 1e-12);
   DisplacedBlocks displaced(e);
-  const Mesh& mesh = displaced.at(e.last);
+  const Mesh& mesh = displaced.at(evaluate_frame(e, e.last.frame));
   const auto& shown = std::get<std::vector<double>>(mesh.point_data.at(0).values);
   const auto [least, most] = std::ranges::minmax(shown);
   EXPECT_NEAR(most, 0.05, 1e-12);
