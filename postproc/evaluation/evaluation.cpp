@@ -49,14 +49,11 @@ void check_joints(const std::vector<ForceRange>& ranges, const Assembly& assembl
                       range.joint->first, range.joint->second, counted(assembly.blocks.size(), "block")));
 }
 
-/// Displaces the blocks of a mechanism along their velocities until the fastest has moved by kShown times the
-/// size of the model.
-void displace_mechanism(const Assembly& assembly, Frame* frame) {
-  constexpr double kShown = 0.025;
-  BlockTable& blocks = frame->blocks;
+/// Displaces blocks along their velocities until the fastest has moved by `share` times the size of the model.
+BlockTable displaced(const Assembly& assembly, double share, BlockTable blocks) {
   const double fastest = largest_norm(blocks.velocity);
-  if (fastest == 0.0) return;
-  const double time = kShown * model_size(assembly) / fastest;
+  if (fastest == 0.0) return blocks;
+  const double time = share * model_size(assembly) / fastest;
   for (size_t b = 0; b < blocks.position.size(); ++b) {
     const Vec3 turn = time * blocks.angular_velocity[b];
     const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()));
@@ -64,6 +61,17 @@ void displace_mechanism(const Assembly& assembly, Frame* frame) {
     blocks.displacement[b] += time * blocks.velocity[b];
     blocks.quaternion_wxyz[b] = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
   }
+  return blocks;
+}
+
+/// The groups of blocks that move as one body. Those of a mechanism follow from a displacement so small that
+/// a turn, whose centroids move along straight lines, parts no body.
+std::vector<int> groups_of(const Assembly& assembly, const Frame& frame, const JointWrenches& joints) {
+  constexpr double kSlight = 1e-6;
+  const BlockTable moved =
+      is_mechanism(frame.role) ? displaced(assembly, kSlight, frame.blocks) : frame.blocks;
+  return mechanism_groups(assembly, poses_of(assembly, moved), joints,
+                          kGroupShare * largest_norm(moved.displacement));
 }
 
 /// Takes the motion of the ground out of a frame, so that its points are where the masonry was built. That of
@@ -334,7 +342,6 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   bring_back_to_site(e.assembly, &out.frame);
   if (e.scene.analysis.plane) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
-  if (mechanism) displace_mechanism(e.assembly, &out.frame);
   out.poses.of_block = contact_poses_of(e.assembly, out.frame.blocks);
   const Loads& loads = e.acting;
   if (out.frame.role != FrameRole::self_stress) {
@@ -349,8 +356,9 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   if (at_rest(e) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else
-    out.groups = mechanism_groups(e.assembly, poses_of(e.assembly, out.frame.blocks), out.joints,
-                                  kGroupShare * largest_norm(out.frame.blocks.displacement));
+    out.groups = groups_of(e.assembly, out.frame, out.joints);
+  constexpr double kShown = 0.025;
+  if (mechanism) out.frame.blocks = displaced(e.assembly, kShown, std::move(out.frame.blocks));
   return out;
 }
 

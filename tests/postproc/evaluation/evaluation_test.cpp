@@ -252,6 +252,26 @@ TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));
 }
 
+// The two upper blocks turn as one about the edge at x = 1.2 m: by 0.5 rad if a stone 20 m away makes the model
+// large, where the centroids have left their circles by more than bodies may part.
+TEST(Evaluation, OneBodyTipsInALargeModelToo) {
+  Assembly a = test::column(3);
+  a.blocks.push_back(a.blocks[1]);
+  test::add_box(&a, 4, 0, {20, 0, 0}, {21, 1, 1}, FaceKind::top);
+  compute_mass_properties(&a);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  const Vec3 hinge(1.2, 0.4, 0.5);
+  for (const size_t b : {2u, 3u}) {
+    frame.blocks.angular_velocity[b] = Vec3::UnitY();
+    frame.blocks.velocity[b] = Vec3::UnitY().cross(a.blocks[b].centroid - hinge);
+  }
+  Summary summary = column_summary(a);
+  summary.status = Status::moving;
+  const Evaluation e = evaluated(a, {frame}, summary, column_case(), test::fresh_folder("results"));
+  EXPECT_EQ(e.last.groups, (std::vector{0, 0, 1, 1, 2}));
+  EXPECT_NEAR(e.last.frame.blocks.displacement[3].norm(), 0.025 * model_size(a), 1e-12) << "is shown";
+}
+
 // The forces of a limit analysis balance the loads at the stable end of its bracket, not those of the case.
 TEST(Evaluation, LimitAnalysisIsEvaluatedUnderItsLoads) {
   const Assembly a = test::column(3);
