@@ -16,6 +16,7 @@
 #include "assembly/model/thickness.hpp"
 #include "postproc/evaluation/meridians.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
+#include "postproc/evaluation/sections.hpp"
 #include "postproc/mechanics/plane_contacts.hpp"
 
 namespace cupola {
@@ -77,15 +78,15 @@ std::vector<int> groups_of(const Assembly& assembly, const Frame& frame, const J
 /// Takes the motion of the ground out of a frame, so that its points are where the masonry was built. That of
 /// the contacts and ties, some way before the end of the step, is that of a support.
 void bring_back_to_site(const Assembly& assembly, Frame* frame) {
+  constexpr double kRounding = 1e-9;  // m, of coordinates, where the ground stands still
   const Vec3 ground = ground_displacement(assembly, *frame);
+  if (ground.norm() <= kRounding) return;
   BlockTable& blocks = frame->blocks;
   for (Vec3& x : blocks.position) x -= ground;
   if (blocks.contact_position.empty()) return;
   const auto support = std::ranges::find_if(assembly.blocks, &Block::fixed);
   const size_t b = support == assembly.blocks.end() ? 0 : support - assembly.blocks.begin();
-  const Vec3 then = ground.isZero(0.0)
-                        ? ground
-                        : blocks.contact_position[b] - assembly.blocks[b].centroid - blocks.displacement[b];
+  const Vec3 then = blocks.contact_position[b] - assembly.blocks[b].centroid - blocks.displacement[b];
   for (std::vector<Vec3>* points :
        {&blocks.contact_position, &frame->contacts.point, &frame->ties.point_a, &frame->ties.point_b})
     for (Vec3& x : *points) x -= then;
@@ -219,27 +220,6 @@ std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   return loads;
 }
 
-/// Resultants of all blocks that stand on a bed or that the bed runs through. An upright block of a wall is
-/// one convex part: the force half-way up is unknown, so the wrench at its foot is taken.
-std::vector<BedResultant> bed_resultants(const Evaluation& e, const ThrustInput& input, int bed) {
-  std::set<int> blocks;
-  for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
-  std::vector<BedResultant> resultants;
-  for (int b = 0; b < static_cast<int>(e.assembly.blocks.size()); ++b) {
-    const Block& block = e.assembly.blocks[b];
-    const bool on_bed = blocks.contains(b);
-    if (block.fixed || (!on_bed && (block.ring >= bed || block.ring + block.num_rings <= bed))) continue;
-    const Wrench wrench = on_bed ? wrench_at_bed(input, b, bed) : e.last.from_below[b];
-    const CentralAxis axis = central_axis(wrench);
-    const double height = e.rings[on_bed ? bed : block.ring].height;
-    if (!axis.exists) continue;
-    const Vec3 point = axis_in_plane(axis, wrench.force, {e.up, height});
-    resultants.push_back({b, block.kind, wrench, point, azimuth(e.assembly, b, b, point),
-                          couple_length(wrench, e.last.joints.floor)});
-  }
-  return resultants;
-}
-
 /// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as
 /// supports. Neither rests on a joint of the frame. Empty unless a stage is shown.
 std::vector<bool> blocks_left_out(const Evaluation& e) {
@@ -248,29 +228,6 @@ std::vector<bool> blocks_left_out(const Evaluation& e) {
   for (const JointWrench& joint : e.last.joints.wrenches)
     if (joint.upper >= 0) left_out[joint.upper] = false;
   return left_out;
-}
-
-/// `placed`: the blocks where the forces balance.
-std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Assembly& placed,
-                                                 const std::vector<bool>& left_out) {
-  const ThrustInput input = thrust_input(e, e.last);
-  std::vector<SectionEvaluation> sections;
-  for (const double height : e.scene.postproc.sections) {
-    SectionEvaluation section{height, -1, cut_by_plane(placed, {Vec3::UnitZ(), height}), {}};
-    if (!left_out.empty()) {
-      std::erase_if(section.polygons, [&](const CutPolygon& p) { return left_out[p.block]; });
-      if (section.polygons.empty()) continue;
-    }
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const RingSum& ring : e.rings) {
-      if (ring.blocks == 0 || std::abs(ring.height - height) >= nearest) continue;
-      nearest = std::abs(ring.height - height);
-      section.ring = ring.ring;
-    }
-    if (section.ring >= 0) section.resultants = bed_resultants(e, input, section.ring);
-    sections.push_back(std::move(section));
-  }
-  return sections;
 }
 
 void evaluate_cuts(const std::vector<bool>& left_out, Evaluation* e) {

@@ -45,7 +45,7 @@ struct MeridianEvaluation {
   std::optional<ThrustLine> least_thrust, greatest_thrust;
 };
 
-/// The resultant across a bed within the width of one block, on the part above.
+/// The resultant across a bed within the width of one block, on the part above or nearer to the crown.
 struct BedResultant {
   int block = 0;
   BlockKind kind = BlockKind::standard;
@@ -55,12 +55,13 @@ struct BedResultant {
   double couple_length = 0.0;  ///< m; NaN if the wrench is negligible
 };
 
-/// A horizontal section: the blocks that the plane cuts, and the forces across the nearest bed.
+/// A horizontal section: the blocks that the plane cuts, and the forces across the nearest bed of each stack
+/// that stands there, of an arch of both haunches.
 struct SectionEvaluation {
-  double height = 0.0;  ///< m
-  int ring = -1;        ///< ring above the nearest bed; -1 without rings
+  double height = 0.0;    ///< m
+  std::vector<int> beds;  ///< empty without rings
   std::vector<CutPolygon> polygons;
-  std::vector<BedResultant> resultants;  ///< across that bed, by block; empty if it carries no force
+  std::vector<BedResultant> resultants;  ///< across these beds, by block; empty if they carry no force
 };
 
 /// Everything the postprocessor derives from a run, for its first frame if that is an equilibrium, else for

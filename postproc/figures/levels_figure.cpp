@@ -26,8 +26,8 @@ Rows outlines_of(const Evaluation& e, const Projection& page) {
   Rows rows;
   if (is_vault(e)) {
     for (const SectionEvaluation& section : e.sections)
-      if (section.ring >= 0)
-        for (const BedFacet& f : e.shell.beds[section.ring])
+      for (const int bed : section.beds)
+        for (const BedFacet& f : e.shell.beds[bed])
           add_outline(e, f.block, page, {f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a}, &rows);
     return rows;
   }

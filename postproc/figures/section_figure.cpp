@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "postproc/evaluation/sections.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/tables/mesh_output.hpp"
@@ -25,18 +27,19 @@ Rows outlines_of(const SectionEvaluation& section) {
 /// Resultants across the bed of a section: as segments in plan, and their norms along the ring.
 struct SectionForces {
   Rows segments, norms, norms_upright;
-  double scale = 0.0;   // m per N
-  double sample = 0.0;  // N, of the arrow that shows the scale
+  double vertical = 0.0;  // N, sum
+  double scale = 0.0;     // m per N
+  double sample = 0.0;    // N, of the arrow that shows the scale
   ForceUnit unit;
 };
 
 SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
   SectionForces out;
-  if (section.ring < 0) return out;
   double largest = 0.0, horizontal = 0.0;
   for (const BedResultant& r : section.resultants) {
     largest = std::max(largest, r.wrench.force.norm());
     horizontal = std::max(horizontal, r.wrench.force.head<2>().norm());
+    out.vertical += r.wrench.force.dot(e.up);
   }
   out.scale = segment_scale(e.assembly, horizontal);
   out.sample = horizontal > 0.0 ? round_down(horizontal) : 0.0;
@@ -54,17 +57,15 @@ SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
 std::string caption_of(const Evaluation& e, const SectionEvaluation& section, const SectionForces& forces) {
   std::string caption = fmt::format("Blocks cut by the plane z = {:g} m.", section.height);
   if (forces.segments.empty()) return caption;
-  const RingSum& ring = e.rings[section.ring];
-  const ForceUnit sum = force_unit(ring.load_above.norm());
+  const ForceUnit sum = force_unit(std::abs(forces.vertical));
   return caption +
          fmt::format(
-             " Arrows: horizontal part of the resultants across the bed of the nearest {} ({}), on the part "
-             "above. Bars: norm of the resultant of each block{}. The joints below carry {:.5g} {}, the load "
-             "above is {:.5g} {}, relative difference {:.1e}.",
-             is_vault(e) ? "ring" : "course", section.ring,
+             " Arrows: horizontal part of the resultants across the bed of the nearest {}, on the part "
+             "above. "
+             "Bars: norm of the resultant of each block{}. Their vertical parts add up to {:.5g} {}.",
+             beds_text(section, is_vault(e) ? "ring" : "course"),
              forces.norms_upright.empty() ? "" : ", orange for upright blocks",
-             sum.per_newton * ring.joint_force.dot(e.up), sum.name,
-             sum.per_newton * ring.load_above.dot(-e.up), sum.name, ring.relative_difference);
+             sum.per_newton * forces.vertical, sum.name);
 }
 
 std::string scale_arrow(const SectionForces& forces) {

@@ -202,11 +202,11 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   const auto through = std::ranges::count_if(e.cracks, &ShellCrack::through);
   return KeyNumber{
       "Widest crack", length_text(widest.widest_gap),
-      fmt::format("in the {}joint between blocks {} and {}; {} open over {} in total, as {}, {} "
-                  "through the shell",
+      fmt::format("in the {}joint between blocks {} and {}; {} open {}, as {}, {} through the shell",
                   joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
                   joint.block_a, joint.block_b,
-                  counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"), length_text(total),
+                  counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
+                  total > 0.0 ? "over " + length_text(total) + " in total" : "at single points",
                   counted(e.cracks.size(), "crack"), through == 0 ? "none" : std::to_string(through))};
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/evaluation/sections.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/tables/shell_map.hpp"
@@ -120,11 +121,10 @@ Table tie_table(const Evaluation& e) {
 }
 
 Table section_table(const Evaluation& e, const SectionEvaluation& section) {
-  Table table =
-      make_table(fmt::format("section_{:g}m", section.height),
-                 fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m (ring {})",
-                             section.height, section.ring),
-                 section_columns(), section.resultants);
+  Table table = make_table(fmt::format("section_{:g}m", section.height),
+                           fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m ({})",
+                                       section.height, beds_text(section, "ring")),
+                           section_columns(), section.resultants);
   return with_member_names(e.assembly, std::move(table));
 }
 

@@ -8,9 +8,9 @@
 namespace cupola::barrel_on_walls_test {
 namespace {
 
-Evaluation barrel_walls() {
+Evaluation barrel_walls(const std::vector<std::string>& settings = {}) {
   const ProgramFolder folder;
-  return solve_and_evaluate(read_case(bundled_folder() + "/barrel_walls.yaml"), folder);
+  return solve_and_evaluate(read_case(bundled_folder() + "/barrel_walls.yaml", settings), folder);
 }
 
 // The last course of the barrel stands on the second wall, whose uppermost course its joint does not carry.
@@ -54,6 +54,30 @@ TEST(BarrelOnWalls, TheCutsOfItsWythePushAsItsSpringingsDo) {
       }
     EXPECT_NEAR(carried, -e.rings.at(top).load_above.z() + 0.5 * down, 1e-6 * down);
   }
+}
+
+// A section has the nearest course of both walls, and of both haunches of the barrel, whose springings are
+// level with the tops of the walls. The forces add up to the weight above; their horizontal parts cancel.
+TEST(BarrelOnWalls, SectionsHaveBothSides) {
+  const Evaluation e = barrel_walls({"postproc.sections=[-1.5, 0]"});
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  ASSERT_EQ(e.sections.size(), 2u);
+  ASSERT_EQ(e.sections[0].beds.size(), 2u);
+  double above = 0.0;
+  for (const size_t wall : {0u, 1u}) {
+    EXPECT_TRUE(sheets[wall].has_ring(e.sections[0].beds[wall]));
+    above -= e.rings.at(e.sections[0].beds[wall]).load_above.z();
+  }
+  const double barrel = -e.rings.at(sheets[2].first_ring).load_above.z();
+  EXPECT_EQ(e.sections[1].beds, (std::vector{sheets[2].first_ring, e.shell.num_rings()}));
+  const auto sum = [](const SectionEvaluation& section) {
+    Vec3 force = Vec3::Zero();
+    for (const BedResultant& r : section.resultants) force += r.wrench.force;
+    return force;
+  };
+  const double error = 1e-6 * barrel;  // the solver's tolerance is 1e-8 of a block's weight
+  EXPECT_LT((sum(e.sections[0]) - Vec3(0, 0, above + barrel)).norm(), error);
+  EXPECT_LT((sum(e.sections[1]) - Vec3(0, 0, barrel)).norm(), error);
 }
 
 }  // namespace

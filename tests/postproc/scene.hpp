@@ -63,4 +63,14 @@ inline Evaluation column_evaluation(double x, double y, double fraction = 0.0) {
                    fresh_folder("results"));
 }
 
+/// A frame as a step of a path, with a plane at the height of the section.
+inline Evaluation evaluated_path(const Assembly& a, const Frame& frame) {
+  Summary summary = column_summary(a);
+  summary.analysis = AnalysisType::path;
+  summary.steps = 1;
+  Case scene = column_case();
+  scene.postproc.planes = {{"middle", {0.0, 0.0, 0.8}, Vec3::UnitZ()}};
+  return evaluated(a, {frame}, summary, scene, fresh_folder("results"));
+}
+
 }  // namespace cupola::test

@@ -1,0 +1,124 @@
+#include "postproc/evaluation/sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "postproc/evaluation/meridians.hpp"
+
+namespace cupola {
+namespace {
+
+/// m, mean height of a bed, of the last one that of its facets.
+double height_of(const Evaluation& e, int bed) {
+  if (bed < static_cast<int>(e.rings.size())) return e.rings[bed].height;
+  const std::vector<BedFacet>& facets = e.shell.beds.back();
+  double sum = 0.0;
+  for (const BedFacet& f : facets)
+    for (const Vec3& corner : {f.intrados_a, f.intrados_b, f.extrados_a, f.extrados_b})
+      sum += e.last.poses.placed(f.block, corner).z();
+  return sum / static_cast<double>(4 * facets.size());
+}
+
+/// The beds of the courses [first, end) that have blocks, of an arch in two flights, from the springing to the
+/// crown and from there down to the other one.
+std::vector<std::vector<int>> flights_of(const Evaluation& e, int first, int end) {
+  std::vector<int> beds;
+  for (int k = first; k < end; ++k)
+    if (e.rings[k].blocks > 0) beds.push_back(k);
+  if (beds.empty() || e.assembly.axis_of(first).thrust_lines != Sheet::ThrustLines::one) return {beds};
+  if (end == e.shell.num_rings() && beds.back() + 1 == end && !e.shell.beds[end].empty()) beds.push_back(end);
+  const auto crown = std::ranges::max_element(beds, {}, [&](int bed) { return height_of(e, bed); });
+  return {{beds.begin(), crown + 1}, {crown + 1, beds.end()}};
+}
+
+/// True if the courses [first, end) stand at a height. Of what lies on each other there the upper counts.
+bool stands_at(const Assembly& placed, int first, int end, double height) {
+  const double rounding = 1e-6 * block_size(placed);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Part& part : placed.parts)
+    if (part.ring >= first && part.ring < end)
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const int v : placed.face(f)) {
+          low = std::min(low, placed.vertices[v].z());
+          high = std::max(high, placed.vertices[v].z());
+        }
+  return low <= height + rounding && height + rounding < high;
+}
+
+/// The bed nearest to a height in each flight of each stack that stands there, or of all where none does, and
+/// whether its flight goes down.
+std::vector<std::pair<int, bool>> nearest_beds(const Evaluation& e, const Assembly& placed, double height) {
+  const auto distance = [&](int bed) { return std::abs(height_of(e, bed) - height); };
+  std::vector<std::pair<int, bool>> nearest;
+  std::pair<int, bool> nearest_of_all{-1, false};
+  const int num_rings = static_cast<int>(e.rings.size());
+  for (int first = 0, end = 0; first < num_rings; first = end) {
+    end = std::min(e.assembly.stack_of(first).second, num_rings);
+    const bool stands = stands_at(placed, first, end, height);
+    bool downwards = false;
+    for (const std::vector<int>& beds : flights_of(e, first, end)) {
+      if (beds.empty()) continue;
+      const std::pair at{*std::ranges::min_element(beds, {}, distance), std::exchange(downwards, true)};
+      if (stands) nearest.push_back(at);
+      if (nearest_of_all.first < 0 || distance(at.first) < distance(nearest_of_all.first))
+        nearest_of_all = at;
+    }
+  }
+  if (nearest.empty() && nearest_of_all.first >= 0) nearest.push_back(nearest_of_all);
+  return nearest;
+}
+
+/// Adds the resultants of all blocks that stand on a bed or that the bed runs through. An upright block of a
+/// wall is one convex part: the force half-way up is unknown, so the wrench at its foot is taken.
+void add_resultants(const Evaluation& e, const ThrustInput& input, int bed, bool downwards,
+                    std::vector<BedResultant>* resultants) {
+  std::set<int> blocks;
+  for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
+  for (int b = 0; b < static_cast<int>(e.assembly.blocks.size()); ++b) {
+    const Block& block = e.assembly.blocks[b];
+    const bool on_bed = blocks.contains(b);
+    if (block.fixed || (!on_bed && (block.ring >= bed || block.ring + block.num_rings <= bed))) continue;
+    const Wrench onwards = on_bed ? wrench_at_bed(input, b, bed) : e.last.from_below[b];
+    const Wrench wrench = downwards ? -1.0 * onwards : onwards;
+    const CentralAxis axis = central_axis(wrench);
+    if (!axis.exists) continue;
+    const double height = height_of(e, on_bed ? bed : block.ring);
+    const Vec3 point = axis_in_plane(axis, wrench.force, {e.up, height});
+    resultants->push_back({b, block.kind, wrench, point, azimuth(e.assembly, b, b, point),
+                           couple_length(wrench, e.last.joints.floor)});
+  }
+}
+
+}  // namespace
+
+std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Assembly& placed,
+                                                 const std::vector<bool>& left_out) {
+  const ThrustInput input = thrust_input(e, e.last);
+  std::vector<SectionEvaluation> sections;
+  for (const double height : e.scene.postproc.sections) {
+    SectionEvaluation section{height, {}, cut_by_plane(placed, {Vec3::UnitZ(), height}), {}};
+    if (!left_out.empty()) {
+      std::erase_if(section.polygons, [&](const CutPolygon& p) { return left_out[p.block]; });
+      if (section.polygons.empty()) continue;
+    }
+    for (const auto& [bed, downwards] : nearest_beds(e, placed, height)) {
+      section.beds.push_back(bed);
+      add_resultants(e, input, bed, downwards, &section.resultants);
+    }
+    sections.push_back(std::move(section));
+  }
+  return sections;
+}
+
+std::string beds_text(const SectionEvaluation& section, const std::string& course) {
+  if (section.beds.empty()) return "none";
+  return fmt::format("{}{} {}", course, section.beds.size() == 1 ? "" : "s", fmt::join(section.beds, ", "));
+}
+
+}  // namespace cupola
