@@ -76,11 +76,18 @@ std::pair<int, int> Assembly::stack_of(int ring) const {
   return stack;
 }
 
+const Sheet* Assembly::vault_of(int ring) const {
+  const auto has_outward = [](const Sheet& sheet) { return sheet.thrust_lines != Sheet::ThrustLines::none; };
+  const auto own = std::ranges::find_if(sheets, [&](const Sheet& sheet) { return sheet.has_ring(ring); });
+  const auto next = std::find_if(own, sheets.end(), has_outward);
+  if (next != sheets.end()) return &*next;
+  const auto before = std::find_if(std::make_reverse_iterator(own), sheets.rend(), has_outward);
+  return before == sheets.rend() ? nullptr : &*before;
+}
+
 Vec3 Assembly::outward(int ring, const Vec3& point) const {
-  if (const std::optional<Vec3> own = axis_of(ring).outward(point)) return *own;
-  for (size_t i = sheets.size(); i-- > 0;)
-    if (const std::optional<Vec3> of_vault = sheets[i].outward(point)) return *of_vault;
-  return outward_at(point, false);
+  const Sheet* vault = vault_of(ring);
+  return vault ? vault->outward(point).value() : outward_at(point, false);
 }
 
 void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {

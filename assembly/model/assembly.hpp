@@ -121,8 +121,11 @@ struct Assembly {
   Sheet axis_of(int ring) const;
   /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
   std::pair<int, int> stack_of(int ring) const;
-  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward; of walls that of
-  /// the last sheet that has one, a vault on them, else, as of imported blocks, away from the z axis.
+  /// The sheet along whose outwards a course pushes: its own; of a wall the next that has one, a vault that
+  /// stands on it, else the nearest before it; of blocks of no course the last. Null if no sheet has one.
+  const Sheet* vault_of(int ring) const;
+  /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward, or of imported blocks;
+  /// without a vault away from the z axis.
   Vec3 outward(int ring, const Vec3& point) const;
   /// Appends a face to the last part. A new part starts with `face_start = num_faces()`.
   void add_face(std::span<const int> vertex_ids, FaceKind kind);

@@ -53,12 +53,9 @@ const BlockPair& JointGeometry::pair(int block_a, int block_b) const {
 }
 
 Vec3 JointGeometry::outward(const Vec3& point, int block) const {
+  if (const Sheet* vault = assembly_.vault_of(assembly_.blocks[block].ring))
+    return vault->outward(point).value();
   const bool imported = assembly_.sheets.empty();
-  if (!imported) {
-    const Sheet* own = assembly_.sheet_of(assembly_.blocks[block].ring);
-    const Sheet& sheet = own ? *own : assembly_.sheets.back();
-    if (const std::optional<Vec3> outward = sheet.outward(point)) return *outward;
-  }
   throw InputError(fmt::format(
       "analysis.range.quantities: {} no axis, so that `thrust` and `outward` are not defined; give "
       "a reaction or joint a `direction`",

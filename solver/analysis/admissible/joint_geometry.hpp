@@ -26,7 +26,7 @@ class JointGeometry {
   /// The joint of two blocks, in either order. Throws InputError if they do not touch.
   const BlockPair& pair(int block_a, int block_b) const;
   /// Horizontal unit vector away from the axis of the vault, or from the middle of the arch, to which a free
-  /// block belongs. Throws InputError for blocks without such an axis.
+  /// block belongs or which stands on its wall. Throws InputError for blocks without such an axis.
   Vec3 outward(const Vec3& point, int block) const;
 
  private:

@@ -74,9 +74,13 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
   if (hoop.ring >= scene.assembly.num_rings)
     throw InputError(fmt::format("{}: ring {} does not exist: the model has rings 0 to {}", kQuantitiesKey,
                                  hoop.ring, scene.assembly.num_rings - 1));
-  const auto along = [&](const Vec3& point, int block) {
+  const Sheet* sheet = scene.assembly.sheet_of(hoop.ring);
+  if (!sheet || sheet->thrust_lines == Sheet::ThrustLines::none)
+    throw InputError(
+        fmt::format("{}: ring {} has no axis, so that it has no hoop force", kQuantitiesKey, hoop.ring));
+  const auto along = [&](const Vec3& point) {
     constexpr double kMean = -0.5 / std::numbers::pi;
-    return Vec3(kMean * scene.joints.outward(point, block));
+    return Vec3(kMean * sheet->outward(point).value());
   };
   ForceFunctional f = scene.zero();
   for (const auto& [key, pair] : scene.joints.pairs()) {
@@ -84,7 +88,7 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
     if (in_ring(a) == in_ring(b)) continue;
     for (const int i : pair.contacts) {
       const Contact& contact = scene.contacts.points[i];
-      const Vec3 direction = along(contact.point_a, in_ring(a) ? a : b);
+      const Vec3 direction = along(contact.point_a);
       f.add(i, in_ring(contact.block_b) ? direction : Vec3(-direction));
     }
   }
@@ -92,19 +96,19 @@ RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene) {
   for (size_t k = 0; k < scene.model.ties.size(); ++k) {
     const Tie& tie = scene.model.ties[k];
     const TieGeometry line = tie_geometry(tie, rest.poses, rest.ground);
-    if (in_ring(tie.block_a)) f.ties[k] -= along(line.point_a, tie.block_a).dot(line.normal);
-    if (in_ring(tie.block_b)) f.ties[k] += along(line.point_b, tie.block_b).dot(line.normal);
+    if (in_ring(tie.block_a)) f.ties[k] -= along(line.point_a).dot(line.normal);
+    if (in_ring(tie.block_b)) f.ties[k] += along(line.point_b).dot(line.normal);
   }
   const LoadSet& loads = scene.model.loads;
   for (const int block : scene.model.free_blocks) {
     const Block& b = scene.assembly.blocks[block];
-    if (in_ring(block)) f.constant += b.mass * along(b.centroid, block).dot(loads.gravity_at(rest.time));
+    if (in_ring(block)) f.constant += b.mass * along(b.centroid).dot(loads.gravity_at(rest.time));
   }
   for (const PointLoad& load : loads.points) {
     const Pose& pose = rest.poses[load.block];
     if (in_ring(load.block))
-      f.constant += loads.factor(load, rest.time) *
-                    along(pose.p_WB + pose.q_WB * load.p_BP_B, load.block).dot(load.force);
+      f.constant +=
+          loads.factor(load, rest.time) * along(pose.p_WB + pose.q_WB * load.p_BP_B).dot(load.force);
   }
   return {fmt::format("hoop force of ring {}", hoop.ring), "N", f, {}, {}};
 }

@@ -110,20 +110,24 @@ ForceFunctional Objectives::bar(int strut, double sign) const {
   return f;
 }
 
-/// Of the last stack, in a model of several: on its supports and on the members that carry it.
+/// Of the last stack that has an axis, in a model of several: on its supports and on what carries it.
 std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
   const Assembly& assembly = scene_.assembly;
-  const Sheet last = assembly.sheets.empty() ? Sheet{} : assembly.sheets.back();
+  const Sheet* vault = assembly.vault_of(-1);
+  const Sheet last = vault ? *vault : Sheet{};
   const bool is_arch = last.thrust_lines == Sheet::ThrustLines::one;
   const auto direction = [&](const Vec3& point, int block) -> Vec3 {
     const Vec3 outward = scene_.joints.outward(point, block);
     return is_arch && outward.dot(last.towards(0.0)) < 0.0 ? Vec3::Zero() : outward;  // one springing
   };
   std::set<int> blocks = base_blocks();
-  const int first = assembly.stack_of(last.first_ring).first;
-  std::erase_if(blocks, [&](int block) { return std::max(assembly.blocks[block].ring, 0) < first; });
+  const std::pair rings = assembly.stack_of(last.first_ring);  // all, of imported blocks without courses
+  std::erase_if(blocks, [&](int block) {
+    const int ring = std::max(assembly.blocks[block].ring, 0);
+    return ring < rings.first || (ring > 0 && ring >= rings.second);
+  });
   ForceFunctional f = on_supports(blocks, direction);
-  add_on_other_stacks(first, direction, &f);
+  add_on_other_stacks(rings.first, direction, &f);
   return {{"thrust", "N", std::move(f), {}, {}}};
 }
 

@@ -127,6 +127,28 @@ TEST(Members, SideBySideAreStacksOfTheirOwn) {
   EXPECT_LT((assembly.outward(1, Vec3(3.0, 0.0, 1.0)) - Vec3::UnitX()).norm(), 1e-15);
 }
 
+// Outwards of a wall is that of the barrel on it, of a wall alone behind all of them that of the barrel before
+// it. A barrel that is listed elsewhere, turned by 90 degrees, would give the direction along the wall.
+TEST(Members, WallsPushAsTheBarrelsOnThem) {
+  Assembly assembly;
+  const auto list = [&](const Sheet& sheet) {
+    assembly.sheets.push_back(sheet);
+    assembly.sheets.back().first_ring = assembly.num_rings++;
+    assembly.sheets.back().num_rings = 1;
+  };
+  const Sheet wall;
+  Sheet barrel, turned;
+  turned.thrust_lines = barrel.thrust_lines = Sheet::ThrustLines::one;
+  turned.turn = std::numbers::pi / 2.0;
+  for (const Sheet& sheet : {wall, wall, barrel, wall, wall, turned, wall}) list(sheet);
+  const Vec3 point(2.0, 3.0, 1.0), x = Vec3::UnitX(), y = Vec3::UnitY();
+  const std::array<Vec3, 7> outward = {x, x, x, y, y, y, y};
+  for (int ring = 0; ring < 7; ++ring)
+    EXPECT_LT((assembly.outward(ring, point) - outward.at(ring)).norm(), 1e-15)
+        << ring;  // rounding of pi / 2
+  EXPECT_EQ(assembly.vault_of(-1), &assembly.sheets[5]);
+}
+
 // A pier and what stands on it, four times round a point; a row of three.
 TEST(Members, HaveCopies) {
   Member pier = tower("pier", 3.0), top = tower("top", 3.2);

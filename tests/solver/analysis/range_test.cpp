@@ -225,6 +225,23 @@ TEST(Range, RatioOfFeetWithStrength) {
   }
 }
 
+// Outwards of a wall is across the barrel on it, as in reactions.csv; the wall has no hoop force for that.
+TEST(Range, OutwardOfAWallIsThatOfItsBarrel) {
+  Assembly box = testing::box_on_floor({1.0, 1.0, 1.0});
+  const Sheet wall{.name = "wall", .num_rings = 1};
+  const Sheet barrel{
+      .name = "barrel", .first_ring = 1, .num_rings = 1, .thrust_lines = Sheet::ThrustLines::one};
+  box.num_rings = 2;
+  box.sheets = {wall, barrel};
+  box.blocks[1].ring = 0;
+  Case scene = range_case(0.5, {BlockReaction{0, BlockReaction::Component::outward, {}}});
+  const double push = 0.1 * weight_of(box);
+  scene.loads.forces = {BlockForce{.block = 1, .point = {}, .force = Vec3(push, 0.0, 0.0), .time = {}}};
+  expect_ends(range_of(scene, box), push, push, weight_of(box));  // equilibrium alone
+  scene.analysis.range.quantities = {HoopForce{0}};
+  EXPECT_THROW(ranges_of(scene, box), InputError);
+}
+
 TEST(Range, WithoutAdmissibleState) {
   Case scene = range_case(0.2, {joint(0, 1, JointForce::Component::normal)});
   scene.loads.gravity = testing::tilted_gravity(0.5);
