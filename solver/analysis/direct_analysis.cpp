@@ -13,6 +13,7 @@
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 #include "solver/conic/conic_bounds.hpp"
@@ -101,15 +102,16 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   throw std::logic_error("a direct limit analysis of a spread");
 }
 
-/// Writes the mechanism of a structure that moves at every value tried.
-void write_motion(const DirectLimit& limit, const std::string& parameter, const AnalysisSinks& sinks,
-                  Summary* summary) {
+/// Writes the mechanism of a structure that moves at every value tried. `gravity` as in write_ends().
+void write_motion(const DirectLimit& limit, const std::string& parameter, double gravity,
+                  const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& moving = limit.at_moving;
   const Mechanism mechanism =
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
   const size_t nc = moving.contacts.points.size();
   const VecX none = VecX::Zero(static_cast<Eigen::Index>(3 * moving.problem.contacts.num_contacts()));
   summarize_frame(admissible_frame(moving, none, moving.start.time), moving.model, summary);
+  summary->weight_N = free_weight(*moving.assembly, gravity);
   write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
                   {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), parameter, sinks);
   summary->message += "; " + describe(mechanism);
@@ -126,6 +128,8 @@ std::string write_ends(const DirectLimit& limit, const std::string& parameter, d
   summarize_frame(frame, stable.model, summary);
   summarize_balance(balance_of(stable, limit.gamma), summary);
   summary->weight_N = free_weight(*stable.assembly, gravity);
+  summary->certified_force_error.bounds = "the forces at a limit are one of the admissible states";
+  summary->forces_unique = {false, ForcesUnique::kOneOfMany};
 
   if (limit.mechanism.size() == 0) return "";
   const RigidScene& moving = limit.at_moving;
@@ -170,21 +174,25 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
 }
 
 /// Without a critical value no value that the search tried stands out: the case itself is solved. The status
-/// is its own where it does what both ends of the search do.
+/// is its own where it does what both ends of the search do. If it stands, its forces are shown.
 void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimit limit,
                          const AnalysisSinks& sinks, Summary* summary) {
   const std::string name = to_string(scene.analysis.limit.parameter);
   summary->message = name + ": " + limit.message;
   const bool stands = limit.gamma.size() > 0, moves = limit.mechanism.size() > 0;
+  const double gravity = scene.loads.gravity.norm();
   RigidScene own = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
   ConicSolution of_case;
   if (stands || moves) of_case = solve_conic(own.problem);
-  if (stands && of_case.outcome == ConicOutcome::optimal) {
+  if (of_case.outcome == ConicOutcome::optimal) {
     limit.at_admissible = std::move(own);
     limit.gamma = of_case.gamma;
-    write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
+    limit.mechanism.resize(0);
+    write_ends(limit, name, gravity, sinks, summary);
     // Recomputed from points and world forces: what the solver calls admissible must balance.
-    if (summary->equilibrium_residual.value() <= kOutcomeTolerance) summary->status = Status::stable;
+    const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;
+    if (balanced && stands) summary->status = Status::stable;
+    if (balanced && moves) summary->message += "; the case itself stands";
   } else if (moves) {
     if (of_case.outcome == ConicOutcome::infeasible) {
       summary->status =
@@ -192,7 +200,7 @@ void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimi
       limit.at_moving = std::move(own);
       limit.mechanism = of_case.v;
     }
-    write_motion(limit, name, sinks, summary);
+    write_motion(limit, name, gravity, sinks, summary);
   } else {
     write_nothing_found(scene, assembly, sinks, summary);
   }
@@ -204,7 +212,7 @@ void summarize_found(const Case& scene, const DirectLimit& limit, const Analysis
   const std::string mechanism = write_ends(limit, name, scene.loads.gravity.norm(), sinks, summary);
   const double width = limit.relative_width(), asked = summary->accuracy.asked;
   summary->accuracy.reached = summary->accuracy.worst_over_run = width;
-  if (limit.is_zero()) summary->accuracy.norm = "width of its bracket, relative to the bracket given";
+  if (limit.is_zero()) summary->accuracy.norm = kNormOfZero;
   const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;  // as above
   if (balanced) summary->status = width <= asked ? Status::stable : Status::bracketed;
   summary->critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
@@ -226,10 +234,8 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
   summary.iterations = limit.iterations;
   summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
                       bracket_width(scene.analysis)};
-  const bool state = limit.gamma.size() > 0;
-  summary.certified_force_error.bounds =
-      state ? "the forces at a limit are one of the admissible states" : "no equilibrium was found";
-  summary.forces_unique = {false, state ? ForcesUnique::kOneOfMany : "no equilibrium was found"};
+  summary.certified_force_error.bounds = "no equilibrium was found";
+  summary.forces_unique = {false, "no equilibrium was found"};
   if (limit.found)
     summarize_found(scene, limit, sinks, &summary);
   else

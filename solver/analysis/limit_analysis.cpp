@@ -65,7 +65,7 @@ struct LimitRun {
   /// A static solve of a case that the parameter changed, or of the case itself.
   Probe probe(const Case& changed, std::shared_ptr<const Assembly> blocks) const;
   /// The status of the case itself, which takes the place of the ends of a bracket that both stand, or move;
-  /// `unconverged` if it does otherwise.
+  /// `unconverged` if it does otherwise. What stands by itself is shown.
   Status judge_the_case(StaticOutcome at_both_ends);
   /// Stores and reports a probe. Returns false if the user wants to stop.
   bool keep(double value, Probe probe);
@@ -121,15 +121,21 @@ bool LimitRun::keep(double value, Probe probe) {
 Status LimitRun::judge_the_case(StaticOutcome at_both_ends) {
   Probe own = probe(scene, as_built());
   iterations += own.solution.iterations;
-  if (own.solution.outcome != at_both_ends) return Status::unconverged;
-  const Status status = status_of(at_both_ends, own.solution.proven);
-  (at_both_ends == StaticOutcome::equilibrium ? stable : moving) = std::move(own);
-  return status;
+  const StaticOutcome outcome = own.solution.outcome;
+  const Status status = status_of(outcome, own.solution.proven);
+  if (outcome == StaticOutcome::equilibrium) {
+    moving.reset();
+    stable = std::move(own);
+  } else if (outcome == at_both_ends) {
+    moving = std::move(own);
+  }
+  return outcome == at_both_ends ? status : Status::unconverged;
 }
 
 Bracket LimitRun::search_value() {
   const LimitSearch& limit = scene.analysis.limit;
-  return bisect(limit.low, limit.high, {bracket_width(scene.analysis), 0.0},
+  return bisect(limit.low, limit.high,
+                {bracket_width(scene.analysis), 0.0, kZeroLimit * (limit.high - limit.low)},
                 [this](double value) -> std::optional<LimitTrial> {
                   Probe probe = probe_at(value);
                   const LimitTrial trial{value, probe.solution.outcome, probe.solution.speed_ratio};
@@ -149,33 +155,27 @@ Bracket LimitRun::follow_spread() {
       });
 }
 
-/// Writes two frames: the last equilibrium, and the mechanism with its largest speed scaled to 1 m/s. Returns
-/// a description of the mechanism, empty if none was found.
+/// Summarises the last equilibrium or, without one, what moves or is undecided, and writes two frames: that
+/// state and the mechanism with its largest speed scaled to 1 m/s. Returns a description of the mechanism,
+/// empty if none was found.
 std::string write_frames(const LimitRun& run, Summary* summary) {
-  if (run.stable) {
-    const Probe& probe = *run.stable;
-    const Frame frame =
-        static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
-    summarize_static(probe.solution, frame, probe.model, run.options.tolerance, summary);
-    summary->weight_N = free_weight(*probe.model.assembly, run.scene.loads.gravity.norm());
+  const std::optional<Probe>& shown = run.stable ? run.stable : run.moving ? run.moving : run.undecided_probe;
+  if (shown) {
+    Frame frame = static_frame(shown->model, shown->start, shown->contacts, shown->memories, shown->solution,
+                               run.options);
+    summarize_static(shown->solution, frame, shown->model, run.options.tolerance, summary);
+    summary->weight_N = free_weight(*shown->model.assembly, run.scene.loads.gravity.norm());
     summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value
-    Frame first = frame;
-    first.time = 0.0;
-    set_contact_poses_if_moved(probe.model, probe.start, &first);
-    set_role(FrameRole::equilibrium, to_string(run.scene.analysis.limit.parameter), &first);
-    run.sinks.frame(first);
+    set_contact_poses_if_moved(shown->model, shown->start, &frame);
+    if (run.stable) {
+      frame.time = 0.0;
+      set_role(FrameRole::equilibrium, to_string(run.scene.analysis.limit.parameter), &frame);
+    }
+    if (run.stable || !run.moving) run.sinks.frame(frame);
   }
   if (!run.stable) {
     summary->certified_force_error.bounds = "no equilibrium was found";
     summary->forces_unique = {false, "no equilibrium was found"};
-  }
-  if (!run.stable && !run.moving && run.undecided_probe) {
-    const Probe& probe = *run.undecided_probe;
-    const Frame frame =
-        static_frame(probe.model, probe.start, probe.contacts, probe.memories, probe.solution, run.options);
-    summarize_static(probe.solution, frame, probe.model, run.options.tolerance, summary);
-    summary->weight_N = free_weight(*probe.model.assembly, run.scene.loads.gravity.norm());
-    run.sinks.frame(frame);
   }
   if (!run.moving) return "";
   const Probe& probe = *run.moving;
@@ -214,6 +214,8 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   summary.message =
       fmt::format("{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
                   bracket.message, mechanism.empty() ? "" : "; ", mechanism);
+  if (bracket.at_both_ends == StaticOutcome::moving && run.stable)
+    summary.message += "; the case itself stands";
   for (const std::optional<Probe>* probe : {&run.stable, &run.moving})
     if (*probe) {
       summary.message += gaps_note((*probe)->contacts, assembly);
@@ -231,7 +233,11 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   summary.accuracy = {"critical value", "width of its bracket, relative to the middle",
                       bracket_width(scene.analysis)};
   if (bracket.found) {
-    const double width = std::abs(bracket.stable.value - bracket.moving.value) / std::abs(bracket.middle());
+    const double span = scene.analysis.limit.high - scene.analysis.limit.low;
+    const bool zero = std::abs(bracket.middle()) <= kZeroLimit * span;
+    if (zero) summary.accuracy.norm = kNormOfZero;
+    const double width =
+        std::abs(bracket.stable.value - bracket.moving.value) / (zero ? span : std::abs(bracket.middle()));
     summary.accuracy.reached = summary.accuracy.worst_over_run = width;
     if (!bracket.narrow) summary.message += missed_width(width, bracket_width(scene.analysis));
   }

@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "solver/analysis/statics/limit_search.hpp"
+
 namespace cupola {
 
 bool DirectLimit::is_zero() const {
-  constexpr double kZero = 1e-8;  // of the span; a mechanism is looked for 1e-9 of it beyond a limit of zero
-  return std::abs(middle()) <= kZero * span;
+  return std::abs(middle()) <= kZeroLimit * span;
 }
 
 double DirectLimit::relative_width() const {

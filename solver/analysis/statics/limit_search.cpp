@@ -78,7 +78,9 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
   const auto width = [&] { return std::abs(bracket.stable.value - bracket.moving.value); };
   std::optional<Undecided> undecided;
   while (true) {
-    const double enough = std::max(required.absolute, required.relative * std::abs(bracket.middle()));
+    const double size = std::abs(bracket.middle());
+    const double enough =
+        std::max({required.absolute, required.relative * size, size <= required.zero ? required.zero : 0.0});
     bracket.narrow = width() <= enough;
     if (bracket.narrow) break;
     const double value = next_value(bracket, undecided);

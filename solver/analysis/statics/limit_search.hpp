@@ -26,10 +26,16 @@ struct Bracket {
   double middle() const { return 0.5 * (stable.value + moving.value); }
 };
 
-/// Required width of a bracket; the larger of the two counts.
+/// A limit of at most this share of the bracket given is zero but for rounding, and has no relative width. A
+/// mechanism is looked for a tenth of it beyond.
+inline constexpr double kZeroLimit = 1e-8;
+inline constexpr const char* kNormOfZero = "width of its bracket, relative to the bracket given";
+
+/// Required width of a bracket; the largest of the three counts.
 struct BracketWidth {
   double relative = 1e-3;  ///< of the middle of the bracket
   double absolute = 0.0;
+  double zero = 0.0;  ///< where the middle is no larger
 };
 
 /// Result at a value; none if the search is to be abandoned.

@@ -45,10 +45,16 @@ TEST(LimitBracket, NegativeFactorsHaveNoLimitBelow) {
 
 // A frictionless floor: the critical acceleration is zero, which has no relative width.
 TEST(LimitBracket, ACriticalValueOfZeroIsFound) {
-  const Summary summary = run_limit(limit_case(Parameter::acceleration, 0.0, 1.0, 0.0), block(), {}).value();
-  EXPECT_EQ(summary.status, Status::stable) << summary.message;
-  ASSERT_TRUE(summary.critical) << summary.message;
-  EXPECT_NEAR(summary.critical->value, 0.0, 1e-9);
+  Case scene = limit_case(Parameter::acceleration, 0.0, 1.0, 0.0);
+  for (const auto method : {LimitSearch::Method::direct, LimitSearch::Method::bisection}) {
+    scene.analysis.limit.method = method;
+    const Summary summary = run_limit(scene, block(), {}).value();
+    EXPECT_EQ(summary.status, Status::stable) << summary.message;
+    ASSERT_TRUE(summary.critical) << summary.message;
+    EXPECT_NEAR(summary.critical->value, 0.0, 1e-8) << "of the bracket";
+    EXPECT_LE(summary.accuracy.reached, summary.accuracy.asked);
+    EXPECT_EQ(summary.accuracy.norm, "width of its bracket, relative to the bracket given");
+  }
 }
 
 // Joints with cohesion are searched from 1e-3 up, others from 1e-5.

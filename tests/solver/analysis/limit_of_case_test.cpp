@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/statics/static_solve.hpp"
 #include "tests/solver/analysis/limit_scenes.hpp"
 
 namespace cupola::limit_of_case_test {
@@ -74,6 +75,41 @@ TEST(LimitOfCase, OfBisectionIsItsOwnStatics) {
   expect(bisect(0.5, 1.0, 0.1), block(), Status::unconverged, stands);
   expect(bisect(0.05, 0.2, 0.1), block(), Status::moving, moves);
   expect(bisect(0.05, 0.2, 0.7), block(), Status::unconverged, moves);
+}
+
+// Pulled by 0 it stands, by 3 g to one side and 2 g to the other it slides: the state shown is its own.
+TEST(LimitOfCase, StandsWhereBothEndsMove) {
+  for (const auto method : {LimitSearch::Method::direct, LimitSearch::Method::bisection}) {
+    Case scene = limit_case(Parameter::acceleration, -3.0, 2.0, 0.3);
+    scene.analysis.limit.method = method;
+    std::vector<Frame> frames;
+    AnalysisSinks sinks;
+    sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+    const Summary summary = run_limit(scene, block(), sinks).value();
+    EXPECT_EQ(summary.status, Status::unconverged) << "of the limit; " << summary.message;
+    EXPECT_NE(summary.message.find("; the case itself stands"), std::string::npos) << summary.message;
+    EXPECT_DOUBLE_EQ(summary.weight_N, free_weight(block(), testing::kG)) << "without the pull";
+    EXPECT_LE(summary.equilibrium_residual.value_or(1.0), kOutcomeTolerance);
+    ASSERT_EQ(frames.size(), 1u);
+    EXPECT_EQ(frames[0].role, FrameRole::equilibrium);
+  }
+}
+
+// What both ends, and the case, only show to move: it has blocks and a weight all the same.
+TEST(LimitOfCase, WhatFallsHasItsWeight) {
+  for (const auto method : {LimitSearch::Method::direct, LimitSearch::Method::bisection}) {
+    Case scene = limit_case(Parameter::acceleration, 1.0, 2.0, 0.3);
+    scene.loads.gravity = testing::tilted_gravity(0.4);
+    scene.analysis.limit.method = method;
+    scene.analysis.limit.direction = {0.0, 1.0, 0.0};  // at right angles to gravity
+    const Summary summary = run_limit(scene, block(), {}).value();
+    EXPECT_EQ(summary.status, Status::moving) << summary.message;
+    EXPECT_EQ(summary.free_blocks, 1);
+    EXPECT_GT(summary.contacts, 0);
+    EXPECT_DOUBLE_EQ(summary.weight_N, free_weight(block(), scene.loads.gravity.norm()))
+        << "without the pull";
+    EXPECT_FALSE(summary.max_displacement_m);
+  }
 }
 
 }  // namespace
