@@ -70,7 +70,8 @@ void expect_face_loads(const Section& s, const Case& the_case) {
                   "in kN/m2? Loads are in N/m2", "too many digits? 1e6 N/m2 is 1 MPa"});
 }
 
-/// Pulls are at right angles to gravity: an inclined direction asks for another load than it would get.
+/// Pulls are at right angles to gravity: an inclined direction asks for another load than it would get. A
+/// level one, as is the default, only says to which side, where gravity is a little inclined.
 void declare_pull_rule(Section& s, const Case& the_case) {
   using enum LimitSearch::Parameter;
   const LimitSearch& limit = the_case.analysis.limit;
@@ -78,8 +79,10 @@ void declare_pull_rule(Section& s, const Case& the_case) {
       (limit.parameter != tilt && limit.parameter != acceleration))
     return;
   constexpr double kRounding = 1e-3;  // of directions with four digits
+  constexpr double kInclined = 0.5;   // sine of 30 degrees
   const double along_gravity = limit.direction.dot(the_case.loads.gravity.normalized());
-  s.rule(limit.direction.norm() > 0.0 && std::abs(along_gravity) <= kRounding * limit.direction.norm(),
+  const double allowed = limit.direction.z() == 0.0 ? kInclined : kRounding;
+  s.rule(limit.direction.norm() > 0.0 && std::abs(along_gravity) <= allowed * limit.direction.norm(),
          "analysis.limit.direction", "must be horizontal, at right angles to loads.gravity");
 }
 

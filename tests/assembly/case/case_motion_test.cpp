@@ -127,5 +127,23 @@ TEST(ReadMotion, ErrorsNameTheBrokenRule) {
   }
 }
 
+// Level directions, as the default is, serve gravity that is a little inclined; run.yaml writes them out.
+TEST(ReadMotion, LevelPullsServeInclinedGravity) {
+  const ScratchFolder scratch;
+  const std::string path =
+      scratch.write("wall.yaml", std::string(kWall) + "joints: {compliance: {per: point}}\n");
+  const auto read = [&](const std::string& gravity, const std::string& direction) {
+    std::vector<std::string> set = {"analysis.type=limit", "analysis.limit.parameter=acceleration",
+                                    "loads.gravity=" + gravity};
+    if (!direction.empty()) set.push_back("analysis.limit.direction=" + direction);
+    return read_case(path, set);
+  };
+  const Case c = read("[0.05, 0, -9.81]", "");
+  EXPECT_NO_THROW(read_case(scratch.write("again.yaml", c.effective_yaml)));
+  EXPECT_NO_THROW(read("[0.05, 0, -9.81]", "[9.81, 0, 0.05]")) << "at right angles";
+  EXPECT_THROW(read("[0, 0, -9.81]", "[1, 0, 0.05]"), InputError);
+  EXPECT_THROW(read("[9.81, 0, -1]", ""), InputError) << "gravity itself";
+}
+
 }  // namespace
 }  // namespace cupola::case_motion_test
