@@ -56,17 +56,21 @@ bool has_cuts(const std::vector<Storey>& storeys) {
   return std::ranges::any_of(storeys, [](const Storey& s) { return !s.cuts.empty() || s.surface.webs > 0; });
 }
 
-/// Refuses a member, or what cuts leave of it, that stands on nothing.
-void refuse_floating(const std::vector<Storey>& storeys, const Assembly& assembly,
-                     const ModelReport& report) {
+/// Refuses a member, or what cuts leave of it, that stands on nothing. `joint_gap`: m, the widest of a joint.
+void refuse_floating(const Geometry& geometry, const std::vector<Storey>& storeys, const Assembly& assembly,
+                     const ModelReport& report, double joint_gap) {
   if (!report.floating || (storeys.size() == 1 && !has_cuts(storeys))) return;
   const Block& block = assembly.blocks[*report.floating];
   const Sheet* sheet = assembly.sheet_of(block.ring);
-  throw InputError(
-      fmt::format("geometry: a part of the member {} floats: block {} about ({:.4g}, {:.4g}, {:.4g}) m has "
-                  "no joint with a support or with blocks that have one",
-                  sheet ? sheet->name : "", *report.floating, block.centroid.x(), block.centroid.y(),
-                  block.centroid.z()));
+  const double gap = geometry.imperfections ? geometry.imperfections->gap : 0.0;
+  throw InputError(fmt::format(
+      "geometry: a part of the member {} floats: block {} about ({:.4g}, {:.4g}, {:.4g}) m has "
+      "no joint with a support or with blocks that have one{}",
+      sheet ? sheet->name : "", *report.floating, block.centroid.x(), block.centroid.y(), block.centroid.z(),
+      gap > joint_gap ? fmt::format("; imperfections.gap = {:g} m is wider than contact.margin, "
+                                    "{:.2g} m here: reduce it, or give that margin",
+                                    gap, joint_gap)
+                      : ""));
 }
 
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
@@ -162,7 +166,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   }
   tolerances.part_by_part = has_cuts(storeys);
   report->model = check_model(assembly, tolerances);
-  refuse_floating(storeys, assembly, report->model);
+  refuse_floating(geometry, storeys, assembly, report->model, tolerances.joint_gap);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
   const Case resolved = resolved_case(input, assembly);
   return with_report(std::move(assembly), *report, resolved);

@@ -217,7 +217,8 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   if (shell.affine)
     for (size_t v = first_vertex; v < assembly->vertices.size(); ++v)
       assembly->vertices[v] = shell.affine->image(assembly->vertices[v]);
-  cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, assembly);
+  const double gap = options.imperfections ? options.imperfections->gap : 0.0;
+  cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, gap, assembly);
   place(shell, first_vertex, first_face, assembly);
   if (shell.is_reflected() && surface.sail_width > 0.0) reflect_sails(num_sails_of(surface), start, assembly);
   assembly->num_rings = surface.rings_below + shell.num_rings();

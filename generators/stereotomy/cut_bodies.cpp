@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
 #include "generators/stereotomy/separation.hpp"
 #include "generators/stereotomy/support.hpp"
@@ -45,17 +46,19 @@ double volume_of(const Assembly& assembly, const ConvexPiece& piece) {
   return six_volumes / 6.0;
 }
 
-/// m, least width of the widest patch that two pieces share; 0 if they do not meet.
-double shared_width(const Assembly& assembly, const ConvexPiece& a, const ConvexPiece& b, double rounding) {
+/// m, least width of the widest patch that two pieces share; 0 if they do not meet. Across a gap their planes
+/// are apart and a little inclined to each other.
+double shared_width(const Assembly& assembly, const ConvexPiece& a, const ConvexPiece& b, double rounding,
+                    double gap = 0.0) {
+  const double opposed = gap > 0.0 ? -std::cos(JointRule{}.max_angle) : -1.0 + 1e-9;
   double widest = 0.0;
   for (const ConvexPiece::Face& f : a.faces) {
     const std::vector<Vec3> of_a = points_of(assembly, f);
     const Plane plane = polygon_plane(of_a);
     for (const ConvexPiece::Face& g : b.faces) {
       const std::vector<Vec3> of_b = points_of(assembly, g);
-      constexpr double kOpposed = -1.0 + 1e-9;
-      if (plane.normal.dot(polygon_plane(of_b).normal) > kOpposed) continue;
-      if (std::abs(plane.normal.dot(of_b.front()) - plane.offset) > 10.0 * rounding) continue;
+      if (plane.normal.dot(polygon_plane(of_b).normal) > opposed) continue;
+      if (std::abs(plane.normal.dot(polygon_centroid(of_b)) - plane.offset) > gap + 10.0 * rounding) continue;
       widest = std::max(widest, overlap_width(of_a, of_b, plane.normal));
     }
   }
@@ -65,7 +68,8 @@ double shared_width(const Assembly& assembly, const ConvexPiece& a, const Convex
 /// The work on one member.
 class Carving {
  public:
-  Carving(const MemberStart& start, Assembly* assembly) : start_(start), assembly_(assembly) {
+  Carving(const MemberStart& start, double gap, Assembly* assembly)
+      : start_(start), assembly_(assembly), gap_(gap) {
     Eigen::AlignedBox3d box;
     for (size_t p = start.part; p < assembly->parts.size(); ++p) {
       const Part& part = assembly->parts[p];
@@ -258,7 +262,7 @@ class Carving {
         continue;
       const bool carries = std::ranges::any_of(cells, [&](size_t i) {
         return std::ranges::any_of(resting, [&](size_t j) {
-          return shared_width(*assembly_, cells_[i].piece, cells_[j].piece, rounding_) > 0.0;
+          return shared_width(*assembly_, cells_[i].piece, cells_[j].piece, rounding_, gap_) > 0.0;
         });
       });
       if (!carries) idle.insert(block);
@@ -286,7 +290,7 @@ class Carving {
         if (other.block == block || assembly_->blocks[origin(other.block)].fixed) continue;
         for (const size_t i : own)
           if (const double w = cells_[i].side == other.side
-                                   ? shared_width(*assembly_, cells_[i].piece, other.piece, rounding_)
+                                   ? shared_width(*assembly_, cells_[i].piece, other.piece, rounding_, gap_)
                                    : 0.0;
               w > width) {
             width = w;
@@ -306,6 +310,7 @@ class Carving {
 
   MemberStart start_;
   Assembly* assembly_;
+  double gap_ = 0.0;                                       // m, of the joints between blocks
   double rounding_ = 0.0;                                  // m
   std::vector<Cell> cells_;                                // by block
   std::map<int, std::vector<size_t>> of_block_, of_ring_;  // cells
@@ -335,13 +340,13 @@ void add_support(const Cut& cut, const std::vector<std::vector<Vec3>>& faces, do
 }  // namespace
 
 void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, double support_width,
-                double density, Assembly* assembly) {
+                double density, double gap, Assembly* assembly) {
   if (bodies.empty()) return;
   if (!assembly->vertex_layers.empty()) {
     assembly->vertex_layers.resize(assembly->vertices.size(), -1);  // corners of supports
     assembly->vertex_depths.resize(assembly->vertices.size(), 0.0);
   }
-  Carving carving(start, assembly);
+  Carving carving(start, gap, assembly);
   std::vector<std::vector<std::vector<Vec3>>> faces(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
     const auto& [cut, taken, key, from_supports] = bodies[i];

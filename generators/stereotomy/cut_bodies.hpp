@@ -27,12 +27,12 @@ struct CutBody {
 /// A part less a convex body is at most one convex piece per plane of the body. The pieces of a block that
 /// still touch each other stay one block, others become blocks of their own. A block of less than a tenth of
 /// what was cut joins the block of its course, or else of a neighbouring one, with which it shares the widest
-/// face. Behind the faces of a cut `as: held` stands a fixed block, `support_width` (m) deep; a plane `as:
-/// joint` takes nothing and parts the blocks that it meets. What is left of a support on which no stone
-/// stands is dropped.
+/// face, across a gap of up to `gap` (m). Behind the faces of a cut `as: held` stands a fixed block,
+/// `support_width` (m) deep; a plane `as: joint` takes nothing and parts the blocks that it meets. What is
+/// left of a support on which no stone stands, across such a gap, is dropped.
 ///
 /// Throws InputError that begins with the key of a cut that takes or parts nothing, or takes all blocks.
 void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, double support_width,
-                double density, Assembly* assembly);
+                double density, double gap, Assembly* assembly);
 
 }  // namespace cupola

@@ -106,6 +106,32 @@ TEST(CutBodies, SmallRestsJoinTheirNeighbours) {
   EXPECT_GT(report.smallest_block, 0.2 * 1.0 * 0.5 * kThickness);
 }
 
+// The stones lie off the supports, and the rests off their neighbours, by up to half a gap and a gap.
+TEST(CutBodies, GapsChangeNeitherSupportsNorBlocks) {
+  for (const auto profile : {Profile::Kind::straight, Profile::Kind::semicircle}) {
+    Case c = wall({plane({0.0, 3.05, 0.0}, {0.0, 1.0, 0.0})});
+    std::get<VaultSurface>(c.geometry.surface).profile.kind = profile;
+    ModelReport tight, open;
+    check_and_report(c, &tight);
+    c.geometry.imperfections = Imperfections{};
+    c.geometry.imperfections->gap = 2e-3;  // m, less than the margin of joints, 1 % of a block
+    check_and_report(c, &open);
+    EXPECT_EQ(open.num_supports, tight.num_supports);
+    EXPECT_EQ(open.num_blocks, tight.num_blocks);
+    EXPECT_EQ(open.islands, 1);
+    EXPECT_GT(open.smallest_block, 0.9 * tight.smallest_block);
+    c.contact.margin = 1e-4;
+    try {
+      check_and_report(c, &open);
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("imperfections.gap = 0.002 m is wider than contact.margin"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(CutBodies, AHeldCutHasASupport) {
   ModelReport report;
   const Case c = wall({plane({0.0, 3.3, 0.0}, {0.0, 1.0, 0.0}, Cut::As::held)});
