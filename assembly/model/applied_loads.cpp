@@ -137,12 +137,14 @@ void add_block_force(const BlockForce& load, const Assembly& assembly, const std
       forces->push_back({s.block, s.point, s.share * load.force, time});
     return;
   }
-  const int number =
-      load.block == BlockForce::kAtPoint ? block_at(assembly, load.point.value(), key) : load.block.number;
-  check_block_exists(assembly, number, key);
+  const bool at_point = load.block == BlockForce::kAtPoint;
+  const std::string chosen_by = key + (at_point ? ".point" : ".block");
+  const int number = at_point ? block_at(assembly, load.point.value(), chosen_by) : load.block.number;
+  check_block_exists(assembly, number, chosen_by);
   const Block& block = assembly.blocks[number];
   if (block.fixed)
-    throw InputError(fmt::format("{}: block {} is fixed; apply the force to a free block", key, number));
+    throw InputError(
+        fmt::format("{}: block {} is fixed; apply the force to a free block", chosen_by, number));
   forces->push_back({number, load.point.value_or(block.centroid), load.force, time});
   if (load.moment) add_moment(*load.moment, number, block, time, forces);
 }

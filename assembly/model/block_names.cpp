@@ -89,22 +89,22 @@ std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
 
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports) {
   const BlockNames names(assembly);
-  const auto resolve_in = [&](const char* list, auto* items, const auto& blocks_of_item) {
+  // `key`: of the item, so that a message finds the place that gives it, perhaps an option.
+  const auto resolve_in = [&](const char* list, const char* key, auto* items, const auto& blocks_of_item) {
     for (size_t i = 0; i < items->size(); ++i)
       for (BlockRef* block : blocks_of_item(&(*items)[i]))
-        names.resolve(fmt::format("{}[{}]", list, i), block);
+        names.resolve(fmt::format("{}[{}].{}", list, i, key), block);
   };
   const auto of_region = [](auto* item) { return pointers_to(&item->region.blocks); };
-  resolve_in("loads.forces", &loads->forces, [](BlockForce* force) {
+  resolve_in("loads.forces", "block", &loads->forces, [](BlockForce* force) {
     return force->block == BlockForce::kAtPoint ? std::vector<BlockRef*>() : std::vector{&force->block};
   });
-  resolve_in("ties.pairs", &ties->pairs, [](PairTie* tie) {
-    return std::vector{&tie->block_a, &tie->block_b};
-  });
-  resolve_in("supports.restraints", &supports->restraints,
+  resolve_in("ties.pairs", "block_a", &ties->pairs, [](PairTie* tie) { return std::vector{&tie->block_a}; });
+  resolve_in("ties.pairs", "block_b", &ties->pairs, [](PairTie* tie) { return std::vector{&tie->block_b}; });
+  resolve_in("supports.restraints", "block", &supports->restraints,
              [](Restraint* restraint) { return std::vector{&restraint->block}; });
-  resolve_in("supports.moves", &supports->moves, of_region);
-  resolve_in("loads.heat", &loads->heat, of_region);
+  resolve_in("supports.moves", "blocks", &supports->moves, of_region);
+  resolve_in("loads.heat", "blocks", &loads->heat, of_region);
 }
 
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities) {

@@ -18,11 +18,11 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 void check_blocks(const BlockRegion& region, const Assembly& assembly, bool fixed, const std::string& key) {
   for (const int block : region.blocks) {
-    check_block_exists(assembly, block, key);
+    check_block_exists(assembly, block, key + ".blocks");
     if (assembly.blocks[block].fixed != fixed)
       throw InputError(
-          fixed ? fmt::format("{}: block {} is not fixed; only supports can be moved", key, block)
-                : fmt::format("{}: block {} is fixed; `ground: true` heats the supports", key, block));
+          fixed ? fmt::format("{}.blocks: block {} is not fixed; only supports can be moved", key, block)
+                : fmt::format("{}.blocks: block {} is fixed; `ground: true` heats the supports", key, block));
   }
 }
 

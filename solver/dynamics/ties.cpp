@@ -45,8 +45,8 @@ Tie make_tie(const Assembly& assembly, BuiltTie tie, const std::string& key) {
 /// A tie that carries `prestress` as generated: its natural length is shorter by prestress / stiffness, or
 /// longer by `slack`.
 Tie pair_tie(const Assembly& assembly, const PairTie& pair, const std::string& key) {
-  check_block_exists(assembly, pair.block_a, key);
-  check_block_exists(assembly, pair.block_b, key);
+  check_block_exists(assembly, pair.block_a, key + ".block_a");
+  check_block_exists(assembly, pair.block_b, key + ".block_b");
   BuiltTie tie;
   tie.block_a = pair.block_a;
   tie.block_b = pair.block_b;
@@ -66,10 +66,10 @@ Tie pair_tie(const Assembly& assembly, const PairTie& pair, const std::string& k
 
 /// The bar of a restraint: from the ground, at the distance of a block, to the held point.
 Tie restraint_bar(const Assembly& assembly, const Restraint& restraint, const std::string& key) {
-  check_block_exists(assembly, restraint.block, key);
+  check_block_exists(assembly, restraint.block, key + ".block");
   const Block& block = assembly.blocks[restraint.block];
   if (block.fixed)
-    throw InputError(fmt::format("{}: block {} is fixed already; remove this restraint", key,
+    throw InputError(fmt::format("{}.block: block {} is fixed already; remove this restraint", key,
                                  block_label(assembly, restraint.block)));
   const auto ground = std::ranges::find_if(assembly.blocks, &Block::fixed);
   if (ground == assembly.blocks.end())

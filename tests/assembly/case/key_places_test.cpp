@@ -47,9 +47,11 @@ TEST(PlacesOfKeys, AreGivenInErrors) {
 TEST(PlacesOfKeys, AreThoseOfTheOptionOrFileThatGivesThem) {
   const ScratchFolder scratch;
   const std::string base = scratch.write("base.yaml", kCase);
-  const Case scene = read_case(scratch.write("c.yaml", "extends: base.yaml\n"), {"joints.friction=0.5"});
+  const Case scene = read_case(scratch.write("c.yaml", "extends: base.yaml\n"),
+                               {"joints.friction=0.5", "loads.forces[1].block=77"});
   EXPECT_EQ(printed(scene, "loads.forces[0]: wrong"), base + ":5:7: error: loads.forces[0]: wrong");
   EXPECT_EQ(printed(scene, "joints.friction: wrong").substr(0, 6), "--set ");
+  EXPECT_EQ(printed(scene, "loads.forces[1].block: wrong").substr(0, 6), "--set ");
 }
 
 }  // namespace

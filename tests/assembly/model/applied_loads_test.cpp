@@ -94,10 +94,10 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
   Loads loads;
   loads.forces.emplace_back().block = 2;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.forces[0]: block 2 does not exist: the assembly has blocks 0 to 1");
+            "error: loads.forces[0].block: block 2 does not exist: the assembly has blocks 0 to 1");
   loads.forces[0].block = 0;
   EXPECT_EQ(refusal_of(loads, assembly),
-            "error: loads.forces[0]: block 0 is fixed; apply the force to a free block");
+            "error: loads.forces[0].block: block 0 is fixed; apply the force to a free block");
   loads.forces.clear();
   loads.faces.emplace_back().faces = FaceKind::extrados;
   loads.faces[0].to_ring = 2;

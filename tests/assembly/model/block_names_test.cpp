@@ -34,13 +34,15 @@ TEST(BlockNames, AreResolvedToNumbers) {
   EXPECT_EQ(complaint(named_blocks(), "b5_2"), "1");
   EXPECT_EQ(complaint(named_blocks(), "the ground"), "0");
   EXPECT_EQ(complaint(named_blocks(), "b5_3"),
-            "error: loads.forces[0]: no block is named 'b5_3'; did you mean 'b5_2'?");
-  EXPECT_EQ(complaint(named_blocks(), "something else"),
-            "error: loads.forces[0]: no block is named 'something else'; the first block is 'the ground'");
-  EXPECT_EQ(complaint(test::two_block_assembly(), "b5_2"),
-            "error: loads.forces[0]: no block is named 'b5_2'; generated blocks have numbers, and supports "
-            "the names "
-            "'support 0', 'support 1', ...");
+            "error: loads.forces[0].block: no block is named 'b5_3'; did you mean 'b5_2'?");
+  EXPECT_EQ(
+      complaint(named_blocks(), "something else"),
+      "error: loads.forces[0].block: no block is named 'something else'; the first block is 'the ground'");
+  EXPECT_EQ(
+      complaint(test::two_block_assembly(), "b5_2"),
+      "error: loads.forces[0].block: no block is named 'b5_2'; generated blocks have numbers, and supports "
+      "the names "
+      "'support 0', 'support 1', ...");
 }
 
 TEST(BlockNames, SupportsHaveNamesInTheirOrder) {
