@@ -148,14 +148,15 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
       s.friction_cone_violation);
   visit("max_penetration_m", "m", "largest overlap at a contact", s.max_penetration_m);
   visit("max_displacement_m", "m",
-        "of a block relative to the ground, in motions the largest at any step of a free one; not in limit "
+        "of a block relative to the ground, in motions the largest at any step of a point of a free one; not "
+        "in limit "
         "analyses, nor in statics without an equilibrium",
         s.max_displacement_m);
   visit("max_displacement_time_s", "s", "motions: when a block was displaced by that",
         s.max_displacement_time_s);
   visit("final_displacement_m", "m", "motions: the largest of a free block at the end",
         s.final_displacement_m);
-  visit("max_speed_m_per_s", "m/s", "motions: of a block relative to the ground at the end",
+  visit("max_speed_m_per_s", "m/s", "motions: of the fastest point relative to the ground at the end",
         s.max_speed_m_per_s);
   visit("rest_at_end", "", "motions: whether it is at rest at the end, as `stable` demands", s.rest_at_end);
   visit("slipping_contacts", "", "number of loaded contacts on their friction cone", s.slipping_contacts);

@@ -98,7 +98,7 @@ void DynamicRun::step() {
   ++progress_.steps;
   progress_.iterations += report_.solve.iterations;
   progress_.energy.include(report_);
-  progress_.rest.include(simulation_.model(), seen_, analysis_.thresholds);
+  progress_.rest.include(simulation_.shapes(), simulation_.model(), seen_, now_.speed, analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
   if (now_.displacement > progress_.farthest) {
@@ -229,7 +229,7 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   summary.inertia_share = report_.balance.inertia_share;
   summary.energy_error = progress_.energy.relative_error();
   summary.final_displacement_m = now_.displacement;
-  summary.max_speed_m_per_s = largest_speed(last);
+  summary.max_speed_m_per_s = now_.speed;
   progress_.worst.summarize(&summary);
   judge_motion(analysis_, progress_, report_.solve, &summary);
   if (scene_.supports.base_motion && summary.status != Status::unconverged)

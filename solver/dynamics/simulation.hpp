@@ -85,6 +85,7 @@ class Simulation {
     return &state_;
   }
   const ContactSet& contacts() const { return model_.heat.empty() ? detector_.contacts() : heated_; }
+  const CollisionModel& shapes() const { return detector_.model(); }
   /// Where the blocks stood when the contacts were found.
   const std::vector<Pose>& contact_poses() const { return detector_.memory().now.poses; }
   const ContactMemories& memories() const { return memories_; }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/files/csv_columns.hpp"
+#include "solver/analysis/motion/farthest_point.hpp"
 
 namespace cupola {
 namespace {
@@ -68,12 +69,10 @@ constexpr CsvColumn<HistoryStep> kHistoryColumns[] = {
 Snapshot take_snapshot(const Simulation& simulation, const State& seen) {
   Snapshot snapshot;
   snapshot.momentum = simulation.linear_momentum();
-  snapshot.speed = largest_speed(seen.v);
   const Model& model = simulation.model();
-  for (int block : model.free_blocks) {
-    const Vec3 moved = seen.poses[block].p_WB - model.assembly->blocks[block].centroid;
-    snapshot.displacement = std::max(snapshot.displacement, moved.norm());
-  }
+  snapshot.speed = fastest_point(simulation.shapes(), model, seen);
+  snapshot.displacement =
+      farthest_point(simulation.shapes(), model, initial_poses(*model.assembly), seen.poses);
   return snapshot;
 }
 

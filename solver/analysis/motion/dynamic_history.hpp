@@ -11,8 +11,8 @@ namespace cupola {
 /// the world, the others are relative to the ground.
 struct Snapshot {
   Vec3 momentum = Vec3::Zero();  ///< N s
-  double speed = 0.0;            ///< m/s, of the fastest block
-  double displacement = 0.0;     ///< m, largest distance of a free block from its position as built
+  double speed = 0.0;            ///< m/s, of the fastest point of a free block
+  double displacement = 0.0;     ///< m, largest distance of such a point from its place as built
 };
 /// `seen`: the state of the simulation, seen from the ground.
 Snapshot take_snapshot(const Simulation& simulation, const State& seen);

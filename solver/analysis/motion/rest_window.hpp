@@ -4,6 +4,7 @@
 
 #include "assembly/case/analysis.hpp"
 #include "solver/dynamics/model.hpp"
+#include "solver/dynamics/state_archive.hpp"
 
 namespace cupola {
 
@@ -11,12 +12,13 @@ namespace cupola {
 /// point is not taken for rest, and without a trend, so that slow creep is not.
 class RestWindow {
  public:
-  /// After each step. `state`: seen from the ground.
-  void include(const Model& model, const State& state, const Analysis::Thresholds& thresholds);
+  /// After each step. `state`: seen from the ground; `speed`: m/s, of its fastest_point().
+  void include(const CollisionModel& shapes, const Model& model, const State& state, double speed,
+               const Analysis::Thresholds& thresholds);
 
   /// No block has been faster than thresholds.speed in the window, or since the start of a shorter run.
   bool is_slow(const Analysis::Thresholds& thresholds) const;
-  /// Mean velocity of the block that moved farthest over the window, m/s; 0 in a shorter run.
+  /// Mean velocity of the farthest_point() over the window, m/s; 0 in a shorter run.
   double drift() const { return drift_; }
   /// A drift above this counts as a trend: a tenth of thresholds.speed.
   static double largest_drift(const Analysis::Thresholds& thresholds) { return 0.1 * thresholds.speed; }
@@ -30,13 +32,12 @@ class RestWindow {
   }
 
  private:
-  /// Centroids of the free blocks at one time.
   struct Sample {
     double time = 0.0;
-    std::vector<Vec3> centroids;
+    std::vector<Pose> poses;
     template <class Archive>
     friend void visit(Archive& archive, Sample& x) {
-      archive(x.time, x.centroids);
+      archive(x.time, x.poses);
     }
   };
 

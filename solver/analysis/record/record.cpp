@@ -260,12 +260,6 @@ double largest_displacement(const Frame& frame) {
   return largest;
 }
 
-double largest_speed(const Frame& frame) {
-  double largest = 0.0;
-  for (const Vec3& v : frame.blocks.velocity) largest = std::max(largest, v.norm());
-  return largest;
-}
-
 void summarize_balance(const Equilibrium& balance, Summary* summary) {
   summary->applied_load_N = balance.applied_load;
   summary->support_reaction_N = balance.support_reaction;

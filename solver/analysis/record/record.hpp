@@ -61,9 +61,8 @@ void append_parted(const ContactSet& built, const ContactSet& found, double marg
 /// and speed, whose meaning depends on the analysis.
 void summarize_frame(const Frame& frame, const Model& model, Summary* summary);
 
-/// Largest displacement (m) and speed (m/s) of a block.
+/// Largest displacement of a block, m.
 double largest_displacement(const Frame& frame);
-double largest_speed(const Frame& frame);
 
 /// Sets the loads, the reactions and the residual of an equilibrium.
 void summarize_balance(const Equilibrium& balance, Summary* summary);

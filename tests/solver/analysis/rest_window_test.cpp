@@ -18,12 +18,13 @@ RestWindow follow(const std::function<double(double)>& x, const Analysis::Thresh
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   const Model model = make_model(testing::make_case(0.4, 1e-8, kStep), assembly);
   State state = state_at_rest(model);
+  const CollisionModel shapes = make_collision_model(assembly);
   RestWindow window;
   for (int k = 1; k <= std::lround(kEnd / kStep); ++k) {
     state.time = k * kStep;
     state.poses[1].p_WB.x() = x(state.time);
     state.v[0] = (x(state.time) - x(state.time - 1e-6)) / 1e-6;
-    window.include(model, state, thresholds);
+    window.include(shapes, model, state, std::abs(state.v[0]), thresholds);
   }
   return window;
 }
