@@ -69,12 +69,14 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
                     const StepOptions& options, StepWork* work) {
   const ContactProblem& problem = step.problem;
   const VecX u = relative_velocity(problem, solution.v), u_start = relative_velocity(problem, start.state.v);
-  const VecX mean = step.with_supports(0.5 * (u + u_start));
+  const double share = step.reach / options.h;  // of the velocity of supports in its mean over the step
+  VecX mean = 0.5 * (u + u_start);
+  if (step.support_velocity.size() > 0) mean += share * step.support_velocity;
   const VecX z = u + problem.b + problem.E.cwiseProduct(solution.gamma);
   const VecX u_el = step.with_supports(u - z);
   const VecX p = step.past_impulse.size() > 0 ? VecX(solution.gamma + step.past_impulse) : solution.gamma;
   const std::vector<double> springs = spring_energies(step, memories, options);
-  work->supports = step.support_velocity.size() > 0 ? -p.dot(step.support_velocity) : 0.0;
+  work->supports = step.support_velocity.size() > 0 ? -share * p.dot(step.support_velocity) : 0.0;
   const int nc = step.num_contacts;
   *work = sum_in_order(kAccountOperationsPerContact * nc, nc, *work, [&](int i) {
     const Eigen::Index row = 3 * i;
@@ -83,7 +85,7 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
     const Vec3 rate = stretching(step, i, u_el.segment<3>(row), start.elastic_gap[i]);
     const double taken = -p.segment<3>(row).dot(mean.segment<3>(row));
     const double stored = springs[i] - start.springs[i];
-    const double approach_per_step = options.h * (u_start[row] + step.support_velocity_of(i)[0]);
+    const double approach_per_step = options.h * (u_start[row] + share * step.support_velocity_of(i)[0]);
     StepWork term;
     term.friction = joint.friction;
     term.dilatancy = joint.dilatancy;

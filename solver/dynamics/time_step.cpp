@@ -209,7 +209,7 @@ void add_support_velocities(const Model& model, const State& state, const Contac
   }
 }
 
-/// Adds the velocities at which the heated faces of a contact separate.
+/// Adds the velocities at which the heated faces of a contact separate, at the end of the step: over reach().
 void add_expansion(const Model& model, const State& state, const ContactSet& contacts,
                    const StepOptions& options, StepProblem* step) {
   for (int i = 0; i < step->num_contacts; ++i) {
@@ -217,7 +217,7 @@ void add_expansion(const Model& model, const State& state, const ContactSet& con
     const Vec3 change = model.heat.separation(state.poses, contact, state.time + options.advance()) -
                         model.heat.separation_before(state.poses, contact, state.time);
     step->support_velocity.segment<3>(3 * i) +=
-        contact_frame(contact.normal).transpose() * change / options.h;
+        contact_frame(contact.normal).transpose() * change / options.reach();
   }
 }
 

@@ -166,5 +166,32 @@ TEST(GeneralizedAlpha, RefusesWhatItDoesNotIntegrate) {
   EXPECT_THROW(testing::simulate(scene, assembly), InputError);
 }
 
+// A slab that sticks to a floor is heated slowly: its four corners bear the shear alpha T (0.5 m) / c along x
+// and y, its centroid rises by alpha T (0.1 m), and what that takes is the work of the heat.
+TEST(GeneralizedAlpha, HeatStretchesTheTangentialSprings) {
+  constexpr double kAlpha = 1e-5, kChange = 20.0, c = 1e-6, kShear = kAlpha * kChange * 0.5 / c;
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
+  Case scene = second_order(make_case(10.0, c, 0.01, 0.002));
+  BlockHeat heat;
+  heat.change = kChange;
+  heat.expansion = kAlpha;
+  heat.time = RampInTime{.start = 1.0, .duration = 1.0};
+  scene.loads.heat = {heat};
+  testing::AccountedSimulation simulation(scene, assembly);
+  double work = 0.0;
+  StepReport report;
+  while (simulation.state().time < 2.5) work += (report = simulation.advance()).work.supports;
+  ASSERT_EQ(report.forces.contacts.size(), 4u);
+  // The slab sinks and rises by 1e-5 of the arm of its corners.
+  for (const Vec3& force : report.forces.contacts) {
+    EXPECT_NEAR(std::abs(force.x()), kShear, 1e-3 * kShear);
+    EXPECT_NEAR(std::abs(force.y()), kShear, 1e-3 * kShear);
+  }
+  const double lift = assembly.blocks[1].mass * kG * kAlpha * kChange * 0.1;
+  const double strain = 4 * 2 * 0.5 * c * kShear * kShear;
+  // The dampers of 2 ms take 0.4 % of it in the second of heating.
+  EXPECT_NEAR(work, lift + strain, 0.01 * (lift + strain));
+}
+
 }  // namespace
 }  // namespace cupola::integrator_test
