@@ -74,8 +74,8 @@ void place_supports(const Assembly& assembly, const std::vector<SupportMotion>& 
     const double factor = factor_at(motion.time, time);
     const Eigen::Quaterniond turn = rotation_of(factor * motion.rotation);
     Pose& pose = (*poses)[motion.block];
-    pose.p_WB +=
-        turn * (pose.p_WB - motion.pivot) - (pose.p_WB - motion.pivot) + factor * motion.displacement;
+    const Vec3 arm = assembly.blocks[motion.block].centroid - motion.pivot;
+    pose.p_WB += turn * arm - arm + factor * motion.displacement;
     pose.q_WB = (turn * pose.q_WB).normalized();
   }
 }

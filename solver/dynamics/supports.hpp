@@ -7,12 +7,13 @@
 
 namespace cupola {
 
-/// Imposed motion of one fixed block: displacement and rotation about a pivot, both scaled by factor(t).
+/// Imposed motion of one fixed block: displacement and rotation about a pivot, both scaled by factor(t). The
+/// displacements of several motions of a block, and of its turns about their pivots as built, add up.
 struct SupportMotion {
   int block = 0;
   Vec3 displacement = Vec3::Zero();  ///< m
   Vec3 rotation = Vec3::Zero();      ///< rad, rotation vector
-  Vec3 pivot = Vec3::Zero();         ///< m
+  Vec3 pivot = Vec3::Zero();         ///< m, as built
   TimeFunction time;
 };
 

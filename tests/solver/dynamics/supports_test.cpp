@@ -86,6 +86,22 @@ TEST(MovingSupport, RotatesAStickingBlock) {
   EXPECT_LT(simulation.state().v.norm(), 1e-6);
 }
 
+// Rotations turn a support about its pivot as built, so that the moves of a support add up in any order.
+TEST(MovingSupport, AddsUpMovesWithoutTurningTheDisplacements) {
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
+  Case scene;
+  SupportMove turn, away = move_supports({0.5, 0, 0}, 1.0);
+  turn.rotation_deg = Vec3(0, 30, 0);
+  turn.pivot = Vec3(-1, 0, -0.5);
+  const Vec3 expected = Vec3(-1 + std::cos(std::numbers::pi / 6) + 0.5, 0, -0.5 - 0.5);
+  for (const auto& moves : {std::vector{away, turn}, std::vector{turn, away}}) {
+    scene.supports.moves = moves;
+    std::vector<Pose> poses(2);
+    place_supports(assembly, make_support_motions(scene, assembly), 1.0, &poses);
+    EXPECT_LT((poses[0].p_WB - expected).norm(), 1e-15) << "rounding";
+  }
+}
+
 TEST(BaseMotion, ReadsDisplacementsAndIntegratesAccelerations) {
   const std::string path = ::testing::TempDir() + "/motion.csv";
   std::ofstream(path) << "# time, value\n0 , 0\n0.5, 1.5\n1\t3\n";
