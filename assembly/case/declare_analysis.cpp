@@ -31,7 +31,8 @@ void declare_adaptive(Section& s, AdaptiveStep& adaptive) {
 void declare_stop(Section& s, StopRules& stop) {
   s.flag("collapsed", stop.collapsed, "stop as soon as a block exceeds thresholds.displacement");
   s.number("settled_time", stop.settled_time, {.unit = "s", .min = 0},
-           "stop once all blocks have been slower than 1e-5 m/s for this long; 0: never");
+           "stop once all blocks have been slower than 1e-5 m/s for this long, and loads, supports and "
+           "friction no longer change; 0: never");
   s.retired("settled_speed",
             "remove it: analysis.stop.settled_time counts blocks slower than 1e-5 m/s as settled");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "assembly/base/error.hpp"
@@ -51,27 +52,29 @@ double at(const DisplacementInTime& motion, double time) {
   return motion.displacement[i] + s * (motion.velocity[i] + s * (table.values[i] / 2.0 + s * jerk / 6.0));
 }
 
-bool changes(const ConstantInTime&) {
-  return false;
+double last(const ConstantInTime&) {
+  return 0.0;
 }
 
-bool changes(const RampInTime& ramp) {
-  return at(ramp, 0.0) != ramp.to;
+double last(const RampInTime& ramp) {
+  return ramp.from == ramp.to ? 0.0 : ramp.start + ramp.duration;
 }
 
-bool changes(const HarmonicInTime&) {
-  return true;
+double last(const HarmonicInTime&) {
+  return std::numeric_limits<double>::infinity();
 }
 
-bool changes(const TableInTime& table) {
-  const double start = at(table, 0.0);
-  for (size_t i = 0; i < table.times.size(); ++i)
-    if (table.times[i] > 0.0 && table.values[i] != start) return true;
-  return false;
+double last(const TableInTime& table) {
+  for (size_t i = table.times.size(); i-- > 1;)
+    if (table.values[i - 1] != table.values[i]) return table.times[i];
+  return 0.0;
 }
 
-bool changes(const DisplacementInTime& motion) {
-  return motion.velocity.back() != 0.0 || changes(motion.acceleration);
+double last(const DisplacementInTime& motion) {
+  const TableInTime& table = motion.acceleration;
+  for (size_t i = table.times.size(); i-- > 0;)
+    if (table.values[i] != 0.0) return table.times[std::min(i + 1, table.times.size() - 1)];
+  return 0.0;
 }
 
 }  // namespace
@@ -80,8 +83,12 @@ double factor_at(const TimeFunction& function, double time) {
   return std::visit([time](const auto& kind) { return at(kind, time); }, function);
 }
 
+double last_change(const TimeFunction& function) {
+  return std::visit([](const auto& kind) { return last(kind); }, function);
+}
+
 bool varies(const TimeFunction& function) {
-  return std::visit([](const auto& kind) { return changes(kind); }, function);
+  return last_change(function) > 0.0;
 }
 
 DisplacementInTime integrate_twice(const TableInTime& acceleration) {

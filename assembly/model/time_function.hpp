@@ -46,6 +46,10 @@ using TimeFunction =
 
 double factor_at(const TimeFunction& function, double time);
 
+/// s, time from which on the factor stays the same, or that of an accelerogram has a constant velocity: 0 if
+/// always, infinity for a wave.
+double last_change(const TimeFunction& function);
+
 /// True if the factor at some time after 0 differs from that at the time 0.
 bool varies(const TimeFunction& function);
 

@@ -6,6 +6,7 @@
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/case/case_times.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/motion/dynamic_history.hpp"
@@ -50,6 +51,7 @@ class DynamicRun {
   const Analysis& analysis_;
   const AnalysisSinks& sinks_;
   Simulation simulation_;
+  double last_change_;  // s, of all loads, supports and frictions
   RunProgress progress_;
   StepReport report_;
   State seen_;  // from the ground
@@ -60,7 +62,11 @@ DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const Analys
     : scene_(scene),
       analysis_(scene.analysis),
       sinks_(sinks),
-      simulation_(make_simulation(scene, assembly)) {}
+      simulation_(make_simulation(scene, assembly)),
+      last_change_(last_change(simulation_.model().ground.time)) {
+  for (const KeyedTime& time : times_of(scene))
+    last_change_ = std::max(last_change_, last_change(time.function));
+}
 
 bool DynamicRun::start_static(Summary* summary) {
   const StaticStart start = start_from_equilibrium(scene_, sinks_.log, &simulation_);
@@ -157,7 +163,8 @@ Stop DynamicRun::stop_reason() const {
   if (is_over(analysis_, progress_.steps, time)) return Stop::time_over;
   if (analysis_.stop.collapsed && progress_.farthest > analysis_.thresholds.collapse())
     return Stop::collapsed;
-  if (analysis_.stop.settled_time > 0.0 && time - progress_.calm_since >= analysis_.stop.settled_time)
+  const double calm_since = std::max(progress_.calm_since, last_change_);
+  if (analysis_.stop.settled_time > 0.0 && time - calm_since >= analysis_.stop.settled_time)
     return Stop::settled;
   return Stop::no;
 }

@@ -1,4 +1,6 @@
 // What the ending of a motion says of the structure.
+#include <fstream>
+
 #include <gtest/gtest.h>
 
 #include "assembly/model/ending.hpp"
@@ -29,6 +31,40 @@ TEST(MotionEnding, BelowTheThresholdOfCollapseItHasNotComeToRest) {
   EXPECT_EQ(summary.status, Status::moving) << summary.message;
   EXPECT_FALSE(falls(summary));
   EXPECT_EQ(words_of(summary), "it has not come to rest");
+}
+
+/// A block of friction 0.2 that a force of twice its friction pushes from 0.5 s on, in a motion of 1 s that
+/// stops when settled.
+Summary pushed_late(const TimeFunction& time) {
+  Case scene = testing::make_case(0.2, 0.0, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 1.0;
+  scene.analysis.stop.settled_time = 0.2;
+  const double weight = 1000.0 * testing::kG;
+  scene.loads.forces.push_back({BlockRef{1}, {}, {0.4 * weight, 0, 0}, time});
+  return run_dynamic(scene, testing::box_on_floor({1.0, 1.0, 1.0}), {}).value();
+}
+
+TEST(MotionEnding, IsNotSettledBeforeLoadsAndSupportsHaveTheirLastValues) {
+  const TableInTime push{"", {0.5, 0.51}, {0.0, 1.0}}, passes{"", {0.5, 0.51, 0.52}, {0.0, 0.1, 0.0}};
+  const Summary slides = pushed_late(push);
+  EXPECT_EQ(slides.message.find("settled"), std::string::npos) << slides.message;
+  EXPECT_GT(slides.max_displacement_m.value(), 0.1) << "mu g (0.5 s)^2 / 2 = 0.25 m";
+  const Summary rests = pushed_late(passes);
+  EXPECT_NE(rests.message.find("settled"), std::string::npos) << rests.message;
+  EXPECT_EQ(rests.steps, 72) << "0.2 s after the last value";
+}
+
+TEST(MotionEnding, IsNotSettledBeforeTheGroundHasMoved) {
+  const std::string path = ::testing::TempDir() + "/quiet.csv";
+  std::ofstream(path) << "0, 0\n0.5, 0\n0.51, 6\n0.8, 6\n";
+  Case scene = testing::make_case(0.2, 0.0, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 1.0;
+  scene.analysis.stop.settled_time = 0.2;
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::acceleration, Vec3::UnitX()};
+  const Summary summary = run_dynamic(scene, testing::box_on_floor({1.0, 1.0, 1.0}), {}).value();
+  EXPECT_GT(summary.max_displacement_m.value(), 0.1) << "(6 - mu g) (0.3 s)^2 / 2 = 0.18 m";
 }
 
 }  // namespace
