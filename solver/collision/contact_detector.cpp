@@ -39,11 +39,6 @@ Eigen::Isometry3d transform_to(const Pose& a, const Pose& b) {
   return X_AB;
 }
 
-/// Upper bound of the distance that a point within `radius` of the centroid has moved, m.
-double motion_bound(const Pose& from, const Pose& to, double radius) {
-  return (to.p_WB - from.p_WB).norm() + radius * from.q_WB.angularDistance(to.q_WB);
-}
-
 /// Records the configuration in which the contacts of a pair are computed.
 void record(const Reach& reach, TrackedPair* pair) {
   pair->X_AB = relative_pose(reach.poses[pair->a], reach.poses[pair->b]);

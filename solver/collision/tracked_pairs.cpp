@@ -50,6 +50,10 @@ Pose relative_pose(const Pose& a, const Pose& b) {
   return {q_AW * Vec3(b.p_WB - a.p_WB), q_AW * b.q_WB};
 }
 
+double motion_bound(const Pose& from, const Pose& to, double radius) {
+  return (to.p_WB - from.p_WB).norm() + radius * from.q_WB.angularDistance(to.q_WB);
+}
+
 double relative_motion(const Pose& from, const Pose& to, double radius_a, double radius_b) {
   const Eigen::Quaterniond from_inverse = from.q_WB.conjugate(), to_inverse = to.q_WB.conjugate();
   // A turn by theta moves a point at distance r by 2 r sin(theta / 2).

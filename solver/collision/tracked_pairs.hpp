@@ -18,6 +18,9 @@ struct TrackedPair {
 /// Pose of b in the axes of a. Subtracting the centroids first keeps the precision far from the origin.
 Pose relative_pose(const Pose& a, const Pose& b);
 
+/// Upper bound of the distance (m) by which a point within `radius` of the centroid has moved.
+double motion_bound(const Pose& from, const Pose& to, double radius);
+
 /// Upper bound of the distance (m) by which points of two blocks within their radii have moved relative to
 /// each other.
 double relative_motion(const Pose& from, const Pose& to, double radius_a, double radius_b);

@@ -59,12 +59,9 @@ State state_at_rest(const Model& model) {
 
 const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector) {
   std::vector<double> travel(rest.poses.size(), 0.0);
-  for (size_t b = 0; b < travel.size(); ++b) {
-    const Pose& pose = rest.poses[b];
-    travel[b] = (pose.p_WB - assembly.blocks[b].centroid).norm() +
-                detector->block_radius(static_cast<int>(b)) *
-                    pose.q_WB.angularDistance(Eigen::Quaterniond::Identity());
-  }
+  const std::vector<Pose> built = initial_poses(assembly);
+  for (size_t b = 0; b < travel.size(); ++b)
+    travel[b] = motion_bound(built[b], rest.poses[b], detector->block_radius(static_cast<int>(b)));
   return detector->update(rest.poses, travel);
 }
 

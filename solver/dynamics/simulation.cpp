@@ -213,6 +213,11 @@ std::vector<double> Simulation::travel(double h) const {
     distance[block] =
         h * (state_.v.segment<3>(6 * i).norm() + radius_[i] * state_.v.segment<3>(6 * i + 3).norm());
   }
+  std::vector<Pose> moved = state_.poses;
+  place_supports(*model_.assembly, model_.support_motions, state_.time + h, &moved);
+  for (const SupportMotion& motion : model_.support_motions)
+    distance[motion.block] =
+        motion_bound(state_.poses[motion.block], moved[motion.block], detector_.block_radius(motion.block));
   return distance;
 }
 

@@ -102,6 +102,23 @@ TEST(MovingSupport, AddsUpMovesWithoutTurningTheDisplacements) {
   }
 }
 
+// A rigid wall advances by 10 mm a step towards a block 25 mm away, on a smooth floor, and pushes it along.
+// Contacts are looked for within 2 mm, and farther by what the blocks move.
+TEST(MovingSupport, MeetsABlockThatItReachesWithinAStep) {
+  const Assembly assembly =
+      testing::make_boxes({{.center = {0, 0, -0.5}, .size = {9, 9, 1}, .fixed = true},
+                           {.center = {-0.525, 0, 0.2}, .size = {0.8, 0.8, 0.4}, .fixed = true},
+                           {.center = {0, 0, 0.1}, .size = {0.2, 0.2, 0.2}}});
+  Case scene = make_case(0.0, 0.0, 0.02);
+  scene.analysis.tolerance = 1e-9;
+  scene.supports.moves = {move_supports({0.5, 0, 0}, 1.0)};
+  scene.supports.moves[0].region.blocks = {BlockRef{1}};
+  testing::AccountedSimulation simulation(scene, assembly);
+  for (int step = 0; step < 50; ++step) simulation.advance();
+  EXPECT_NEAR(simulation.state().poses[2].p_WB.x(), 0.5 - 0.025, 1e-9);
+  EXPECT_NEAR(simulation.state().v[0], 0.5, 1e-9);
+}
+
 TEST(BaseMotion, ReadsDisplacementsAndIntegratesAccelerations) {
   const std::string path = ::testing::TempDir() + "/motion.csv";
   std::ofstream(path) << "# time, value\n0 , 0\n0.5, 1.5\n1\t3\n";
