@@ -308,7 +308,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
     out.loads = loads_at(e, time);
   }
   out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e));
-  out.from_below = wrenches_from_below(e.assembly, out.joints);
+  out.from_below = wrenches_from_below(e.assembly, out.joints, out.poses);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
   if (at_rest(e) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);

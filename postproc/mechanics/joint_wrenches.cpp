@@ -169,9 +169,11 @@ Wrench wrench_on(const JointWrench& joint, int block) {
   return block == joint.block_b ? joint.wrench : -1.0 * joint.wrench;
 }
 
-std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints) {
+std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints,
+                                        const Poses& poses) {
   std::vector<Wrench> wrenches(assembly.blocks.size());
-  for (size_t b = 0; b < wrenches.size(); ++b) wrenches[b].point = assembly.blocks[b].centroid;
+  for (size_t b = 0; b < wrenches.size(); ++b)
+    wrenches[b].point = poses.placed(static_cast<int>(b), assembly.blocks[b].centroid);
   for (const JointWrench& joint : joints.wrenches)
     if (joint.carried >= 0) wrenches[joint.carried].add(wrench_on(joint, joint.carried));
   return wrenches;

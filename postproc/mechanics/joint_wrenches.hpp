@@ -6,6 +6,7 @@
 #include "assembly/model/results.hpp"
 #include "postproc/mechanics/floor.hpp"
 #include "postproc/mechanics/planar_hull.hpp"
+#include "postproc/mechanics/poses.hpp"
 #include "postproc/mechanics/shell.hpp"
 #include "postproc/mechanics/wrench.hpp"
 
@@ -68,8 +69,9 @@ WytheRange wythes_of(const Assembly& assembly, const Shell& shell, const Joint& 
 /// The wrench of the joint on `block`, which must be one of its two.
 Wrench wrench_on(const JointWrench& joint, int block);
 
-/// Wrench on each block from the ring below, about the block's centroid (paper, section 3.2): the sum over
-/// the bed and base joints that carry it. Zero for blocks without such a joint.
-std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints);
+/// Wrench on each block from the ring below, about the block's centroid in these poses (paper, section 3.2):
+/// the sum over the bed and base joints that carry it. Zero for blocks without such a joint.
+std::vector<Wrench> wrenches_from_below(const Assembly& assembly, const JointWrenches& joints,
+                                        const Poses& poses = {});
 
 }  // namespace cupola

@@ -252,6 +252,11 @@ TEST(ThrustLine, StandsWhereTheContactsWereFound) {
     for (const auto& [from, to] : {std::pair(a.point, b.point), {a.intrados, b.intrados}})
       EXPECT_NEAR((move * from - to).norm(), 0.0, 1e-12);
   }
+  // The wrench on a block is about its centroid there.
+  const Wrench of_built = evaluate_frame(e, e.last.frame).from_below[2];
+  const Wrench of_moved = evaluate_frame(e, frame).from_below[2];
+  EXPECT_NEAR((move * of_built.point - of_moved.point).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((move.linear() * of_built.moment - of_moved.moment).norm(), 0.0, 1e-9 * of_built.moment.norm());
 }
 
 // A strip of several blocks keeps its resultant where the ground has moved and the axis with it.
