@@ -222,7 +222,7 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.number("duration", analysis.duration, {.unit = "s", .above = 0},
            "dynamic: simulated time; the last fixed step covers its end");
   s.number("damping", analysis.damping, {.unit = "s", .min = 0},
-           "contact damping coefficient over contact stiffness, alpha");
+           "damping coefficient over stiffness of contacts and ties, alpha");
   s.number("recovery_speed", analysis.recovery_speed, {.unit = "m/s", .above = 0},
            "largest speed at which penetration beyond that due to compliance is corrected");
   s.choice("recovery", analysis.recovery,

@@ -49,7 +49,9 @@ void declare_block_force(Section& s, BlockForce& load) {
   s.rule(!load.over || (!block && !load.point), "over",
          "shares the force among blocks: leave out block and point");
   s.vector3("force", load.force, {.unit = "N"}, "force, of constant direction");
-  s.optional_vector3("moment", load.moment, {.unit = "N m"}, "none", "moment on the block, right-handed");
+  s.optional_vector3(
+      "moment", load.moment, {.unit = "N m"}, "none",
+      "moment on the block, right-handed: of forces that keep their directions while it turns");
   s.rule(!load.over || !load.moment, "moment", "acts on one block: give `block` instead of `over`");
   declare_time(s, "time", load.time, "factor on force and moment");
 }
