@@ -148,8 +148,7 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
       s.friction_cone_violation);
   visit("max_penetration_m", "m", "largest overlap at a contact", s.max_penetration_m);
   visit("max_displacement_m", "m",
-        "of a block relative to the ground, in motions the largest at any step of a point of a free one; not "
-        "in limit "
+        "of a block relative to the ground, in motions the largest at any step of a free one; not in limit "
         "analyses, nor in statics without an equilibrium",
         s.max_displacement_m);
   visit("max_displacement_time_s", "s", "motions: when a block was displaced by that",

@@ -106,9 +106,8 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
     out->push_back(fmt::format("The largest displacement of the motion is {:.3g} m{}, at {:.4g} s.",
                                largest.distance, relative_to_ground(e), largest.time));
   out->push_back(fmt::format(
-      "At the end, {:.4g} s, the largest displacement of a centroid is {:.3g} m{}, of {}; {} of {} are "
-      "farther than "
-      "{:g} m from their places. The blocks move as {}.",
+      "At the end, {:.4g} s, the largest displacement is {:.3g} m{}, of {}; {} of {} are farther than {:g} m "
+      "from their places. The blocks move as {}.",
       e.last.frame.time, farthest.displacement, relative_to_ground(e), block_text(e, farthest.block),
       count_moving(e, threshold), counted(e.summary.free_blocks, "free block"), threshold,
       counted(bodies, "body", "bodies")));

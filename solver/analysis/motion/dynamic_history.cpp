@@ -71,8 +71,10 @@ Snapshot take_snapshot(const Simulation& simulation, const State& seen) {
   snapshot.momentum = simulation.linear_momentum();
   const Model& model = simulation.model();
   snapshot.speed = fastest_point(simulation.shapes(), model, seen);
-  snapshot.displacement =
-      farthest_point(simulation.shapes(), model, initial_poses(*model.assembly), seen.poses);
+  for (const int block : model.free_blocks) {
+    const Vec3 moved = seen.poses[block].p_WB - model.assembly->blocks[block].centroid;
+    snapshot.displacement = std::max(snapshot.displacement, moved.norm());
+  }
   return snapshot;
 }
 

@@ -245,7 +245,7 @@ std::string sliding_column(Status status, AnalysisType analysis) {
 TEST(Report, ShowsTheMotionOfARunThatFoundNoEquilibrium) {
   for (const auto& [status, analysis, says] :
        {std::tuple{Status::collapsed, AnalysisType::dynamic,
-                   "At the end, 2 s, the largest displacement of a centroid is 0.8 m, of "
+                   "At the end, 2 s, the largest displacement is 0.8 m, of "
                    "block 2 in ring 1; 2 of 3 free blocks"},
         {Status::moving, AnalysisType::dynamic, "at 1.26 s"},
         {Status::moving, AnalysisType::static_,

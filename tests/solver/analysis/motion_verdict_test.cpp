@@ -85,12 +85,11 @@ TEST(MotionThatComesBack, IsJudgedAlikeAfterAnInterruption) {
 }
 
 // A couple about the vertical turns a cube on its base, whose centroid stays: corners are sqrt(1/2) m away.
-TEST(MotionThatTurns, IsJudgedByTheFarthestPointOfItsBlock) {
+TEST(MotionThatTurns, IsJudgedByTheFastestPointOfItsBlock) {
   Case scene = testing::make_case(0.05, 1e-9, 0.01);
   scene.analysis.tolerance = 1e-9;
   scene.analysis.duration = 0.5;
   scene.analysis.start = Analysis::Start::rest;
-  scene.analysis.thresholds.displacement = 10.0;
   scene.loads.forces.push_back({BlockRef{1}, {}, Vec3::Zero(), {}, Vec3(0, 0, 1500)});
   Frame last;
   std::string row;
@@ -103,15 +102,11 @@ TEST(MotionThatTurns, IsJudgedByTheFarthestPointOfItsBlock) {
 
   const double radius = std::sqrt(0.5), angle = 2.0 * std::acos(last.blocks.quaternion_wxyz[1][0]);
   EXPECT_GT(angle, 0.5);
-  const double speed = radius * last.blocks.angular_velocity[1].z(),
-               way = 2.0 * radius * std::sin(0.5 * angle);
+  const double speed = radius * last.blocks.angular_velocity[1].z();
   // The block settles and slides aside by less than 0.01 mm.
   EXPECT_NEAR(summary.max_speed_m_per_s.value(), speed, 1e-3 * speed);
-  EXPECT_NEAR(summary.max_displacement_m.value(), way, 1e-4 * way);
-  EXPECT_EQ(summary.final_displacement_m, summary.max_displacement_m);
-  EXPECT_NE(row.find(fmt::format("{:.17g},{:.17g}", *summary.max_speed_m_per_s, *summary.max_displacement_m)),
-            std::string::npos)
-      << row;
+  EXPECT_LT(summary.max_displacement_m.value(), 1e-5) << "of the centroid";
+  EXPECT_NE(row.find(fmt::format("{:.17g}", *summary.max_speed_m_per_s)), std::string::npos) << row;
 }
 
 }  // namespace
