@@ -3,7 +3,6 @@
 
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/report/answers.hpp"
-#include "postproc/report/reasons.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::limit_answers_test {
