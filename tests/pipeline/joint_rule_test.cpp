@@ -140,7 +140,7 @@ TEST(BlockNames, WorkWhereverNumbersDo) {
   write_case("b5_3");
   const ProgramRun misspelt = folder.run("cupola-generate tower.yaml --output tower.vtu");
   EXPECT_EQ(misspelt.code, 2);
-  EXPECT_NE(misspelt.err.find("loads.forces[0]: no block is named 'b5_3'; did you mean 'b5_2'?"),
+  EXPECT_NE(misspelt.err.find("loads.forces[0].block: no block is named 'b5_3'; did you mean 'b5_2'?"),
             std::string::npos)
       << misspelt.err;
 

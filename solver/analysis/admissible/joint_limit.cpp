@@ -136,7 +136,8 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   }
   Ends ends = first_ends(low, high, relative_width, parameter, &trials);
   // Rounding, which differs between machines, decides whether a solve at the floor converges.
-  for (int raised = 0; raised < kMostRaised && low == floor && !ends.below.decided; ++raised) {
+  const auto decided = [&ends] { return ends.below.decided && ends.above.decided; };
+  for (int raised = 0; raised < kMostRaised && low == floor && !decided(); ++raised) {
     low = floor *= 2.0;
     ends = first_ends(low, high, relative_width, parameter, &trials);
   }
