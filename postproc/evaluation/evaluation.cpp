@@ -78,10 +78,9 @@ std::vector<int> groups_of(const Assembly& assembly, const Frame& frame, const J
 /// Takes the motion of the ground out of a frame, so that its points are where the masonry was built. That of
 /// the contacts and ties, some way before the end of the step, is that of a support.
 void bring_back_to_site(const Assembly& assembly, Frame* frame) {
-  constexpr double kRounding = 1e-9;  // m, of coordinates, where the ground stands still
-  const Vec3 ground = ground_displacement(assembly, *frame);
-  if (ground.norm() <= kRounding) return;
   BlockTable& blocks = frame->blocks;
+  // Positions have the motion of the ground, displacements do not.
+  const Vec3 ground = blocks.position[0] - assembly.blocks[0].centroid - blocks.displacement[0];
   for (Vec3& x : blocks.position) x -= ground;
   if (blocks.contact_position.empty()) return;
   const auto support = std::ranges::find_if(assembly.blocks, &Block::fixed);
@@ -263,12 +262,6 @@ bool at_rest(const Evaluation& e) {
   return false;
 }
 
-Vec3 ground_displacement(const Assembly& assembly, const Frame& frame) {
-  const bool follows = frame.role == FrameRole::step || frame.role == FrameRole::path;
-  if (!follows || assembly.blocks.empty()) return Vec3::Zero();
-  return frame.blocks.position[0] - assembly.blocks[0].centroid - frame.blocks.displacement[0];
-}
-
 bool is_vault(const Evaluation& e) {
   return e.shell.num_rings() > 0 && !e.assembly.sheets.empty() &&
          e.assembly.sheets.back().thrust_lines == Sheet::ThrustLines::by_azimuth &&
@@ -296,7 +289,8 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
   out.frame = std::move(frame);
-  bring_back_to_site(e.assembly, &out.frame);
+  const bool follows = out.frame.role == FrameRole::step || out.frame.role == FrameRole::path;
+  if (follows && e.scene.supports.base_motion) bring_back_to_site(e.assembly, &out.frame);
   if (e.scene.analysis.plane) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   out.poses.of_block = contact_poses_of(e.assembly, out.frame.blocks);

@@ -101,9 +101,6 @@ struct Evaluation {
 /// stable.
 bool at_rest(const Evaluation& evaluation);
 
-/// How far the ground has moved in a step of a motion or path, m: positions have it, displacements do not.
-Vec3 ground_displacement(const Assembly& assembly, const Frame& frame);
-
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
 

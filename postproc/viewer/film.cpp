@@ -88,9 +88,8 @@ void Film::add_poses(const Frame& frame) {
   labels_.push_back(frame.label);
   const BlockTable& blocks = frame.blocks;
   const std::vector<Block>& rest = evaluation_.assembly.blocks;
-  const Vec3 ground = ground_displacement(evaluation_.assembly, frame);
   for (size_t b = 0; b < rest.size(); ++b) {
-    append_vector(blocks.position[b] - rest[b].centroid - ground, &shifts_);
+    append_vector(blocks.position[b] - rest[b].centroid, &shifts_);
     append_vector(rotation_vector(blocks.quaternion_wxyz[b]), &turns_);
   }
 }

@@ -64,11 +64,13 @@ inline Evaluation column_evaluation(double x, double y, double fraction = 0.0) {
 }
 
 /// A frame as a step of a path, with a plane at the height of the section.
-inline Evaluation evaluated_path(const Assembly& a, const Frame& frame) {
+inline Evaluation evaluated_path(const Assembly& a, const Frame& frame,
+                                 const std::optional<BaseMotion>& ground = {}) {
   Summary summary = column_summary(a);
   summary.analysis = AnalysisType::path;
   summary.steps = 1;
   Case scene = column_case();
+  scene.supports.base_motion = ground;
   scene.postproc.planes = {{"middle", {0.0, 0.0, 0.8}, Vec3::UnitZ()}};
   return evaluated(a, {frame}, summary, scene, fresh_folder("results"));
 }

@@ -99,7 +99,7 @@ TEST(Evaluation, LeavesTheMotionOfTheGroundOut) {
   blocks.contact_quaternion_wxyz = blocks.quaternion_wxyz;
   for (Vec3& point : frame.contacts.point) point += then;
   for (Vec3& position : blocks.position) position.x() += 3.0;
-  const Evaluation e = test::evaluated_path(a, frame);
+  const Evaluation e = test::evaluated_path(a, frame, BaseMotion{});
   constexpr double kRounding = 1e-14;  // of coordinates of 3 m
   const auto expect_at = [=](const std::vector<Vec3>& found, const std::vector<Vec3>& expected) {
     ASSERT_EQ(found.size(), expected.size());
