@@ -111,6 +111,7 @@ void write_motion(const DirectLimit& limit, const std::string& parameter, double
   const size_t nc = moving.contacts.points.size();
   const VecX none = VecX::Zero(static_cast<Eigen::Index>(3 * moving.problem.contacts.num_contacts()));
   summarize_frame(admissible_frame(moving, none, moving.start.time), moving.model, summary);
+  summary->applied_load_N = balance_of(moving, none).applied_load;
   summary->weight_N = free_weight(*moving.assembly, gravity);
   write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
                   {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), parameter, sinks);

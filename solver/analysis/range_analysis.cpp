@@ -81,7 +81,9 @@ bool write_start(const RigidScene& rigid, const ChosenState& chosen, const Analy
   const ConicSolution any = solve_conic(rigid.problem);
   Frame frame = admissible_frame(rigid, any.gamma, 0.0);
   summarize_frame(frame, rigid.model, summary);
+  const Equilibrium balance = balance_of(rigid, any.gamma);
   if (any.outcome == ConicOutcome::infeasible) {
+    summary->applied_load_N = balance.applied_load;
     const Mechanism mechanism =
         find_mechanism(rigid.model, rigid.start, rigid.contacts, rigid.problem.contacts, any.v);
     const size_t nc = rigid.contacts.points.size();
@@ -99,7 +101,7 @@ bool write_start(const RigidScene& rigid, const ChosenState& chosen, const Analy
   else
     set_role(FrameRole::unconverged, "", &frame);
   sinks.frame(frame);
-  summarize_balance(balance_of(rigid, any.gamma), summary);
+  summarize_balance(balance, summary);
   summary->message = fmt::format("the search for an admissible state ended {}", to_string(any.outcome));
   return found;
 }

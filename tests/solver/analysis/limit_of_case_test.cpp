@@ -106,6 +106,7 @@ TEST(LimitOfCase, WhatFallsHasItsWeight) {
     EXPECT_EQ(summary.status, Status::moving) << summary.message;
     EXPECT_EQ(summary.free_blocks, 1);
     EXPECT_GT(summary.contacts, 0);
+    EXPECT_GT(summary.applied_load_N.norm(), 0.0);
     EXPECT_DOUBLE_EQ(summary.weight_N, free_weight(block(), scene.loads.gravity.norm()))
         << "without the pull";
     EXPECT_FALSE(summary.max_displacement_m);

@@ -251,6 +251,7 @@ TEST(Range, WithoutAdmissibleState) {
   const Summary summary = ranges_of(scene, testing::box_on_floor({1, 1, 1}), sinks);
   EXPECT_EQ(summary.status, Status::moving);
   EXPECT_TRUE(summary.ranges.empty());
+  EXPECT_DOUBLE_EQ(summary.applied_load_N.norm(), summary.weight_N) << "the weight alone";
   EXPECT_NE(summary.message.find("no admissible state exists"), std::string::npos) << summary.message;
   ASSERT_EQ(frames.size(), 1u);
 }
