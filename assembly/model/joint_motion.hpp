@@ -13,7 +13,8 @@ constexpr auto enum_names(JointMotion) {
 
 /// How the two sides of a joint of a mechanism move, gathered from its points. Speeds are relative to that of
 /// the fastest block of the mechanism. A point stays closed if it moves across the joint at least as fast as
-/// it opens: under the associated law a sliding point opens by friction times its sliding.
+/// it opens: under the associated law a sliding point opens by friction times its sliding. With a friction
+/// above 1 such a joint counts as opening.
 struct JointSpeeds {
   /// Speed relative to the fastest block below which nothing moves.
   static constexpr double kStopped = 1e-3;

@@ -60,16 +60,14 @@ std::string findings_heading(const Summary& s) {
   return has_chosen(s.ranges) ? "Findings in the chosen state" : "Findings in one admissible state";
 }
 
-/// Of the free blocks, to which a file may give densities of their own.
+/// Of the free blocks, to which a file may give densities of their own; without free blocks that of the case.
 std::string unit_weight_text(const Evaluation& e) {
   const double gravity = e.scene.material.unit_weight / e.scene.material.density();
-  double least = std::numeric_limits<double>::infinity(), greatest = 0.0;
-  for (const Block& block : e.assembly.blocks) {
-    if (block.fixed) continue;
-    const double weight = 1e-3 * gravity * block.mass / block.volume;  // kN/m3
-    least = std::min(least, weight);
-    greatest = std::max(greatest, weight);
-  }
+  std::vector<double> weights;  // kN/m3
+  for (const Block& block : e.assembly.blocks)
+    if (!block.fixed) weights.push_back(1e-3 * gravity * block.mass / block.volume);
+  if (weights.empty()) weights.push_back(1e-3 * e.scene.material.unit_weight);
+  const auto [least, greatest] = std::ranges::minmax(weights);
   const std::string low = fmt::format("{:.4g}", least), high = fmt::format("{:.4g}", greatest);
   return (low == high ? low : low + " to " + high) + " kN/m³";
 }
