@@ -23,7 +23,7 @@ std::optional<double> sum_over_supports(const Evaluation& e) {
 /// N, at the springing of an arch at x < 0 in its own frame; none of a half arch.
 std::optional<double> thrust_of_other_side(const Evaluation& e, const Sheet& sheet) {
   const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
-  const auto in_stack = [&](int block) {
+  const auto in_stack = [&, first = first, end = end](int block) {
     const int ring = ring_above_support(e.assembly.blocks[block]);
     return ring >= first && ring < end;
   };
