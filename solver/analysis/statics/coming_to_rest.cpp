@@ -154,8 +154,10 @@ void ComingToRest::iterate() {
 
 bool ComingToRest::shorten_step() {
   constexpr int kMaxShortened = 4;
-  constexpr double kFactor = 0.1;
+  constexpr double kFactor = 0.1, kLongest = 0.3;
   if (++num_shortened_ > kMaxShortened) return false;
+  // A step as long as one that failed would fail again.
+  if (std::isfinite(largest_h_)) largest_h_ = kLongest * trial_.h;
   set_step(trial_.h * kFactor);
   return true;
 }

@@ -72,7 +72,7 @@ class ProximalPoint {
   const ContactMemories& memories_;
   StaticOptions options_;      // under a control: at the time tried last
   const double acceleration_;  // m/s2, reference
-  const double largest_h_;     // s
+  double largest_h_;           // s; infinite: some contact is rigid
   StepProblem step_;           // at trial_.h; its v_star is the free velocity at rest, h M^-1 w
   ContactSolution x_;          // last accepted iterate, at trial_.h
   StaticSolution trial_;       // without the contact problem, which is large
