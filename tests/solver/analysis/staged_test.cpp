@@ -166,7 +166,8 @@ TEST(Staged, TheCrownIsOneCourseOlderThanTheNextMember) {
 TEST(Staged, TheCrownIsOneCourseBelowTheNextMember) {
   Case scene = staged_case(0.7, 0.5);
   scene.analysis.staged.hold_below = 1;
-  const BuildingSite site(scene, arch_and_wall());
+  const Assembly assembly = arch_and_wall();
+  const BuildingSite site(scene, assembly);
   EXPECT_FALSE(site.is_held(2, site.course[4]));
   EXPECT_TRUE(site.is_held(1, site.course[4]));
 }
