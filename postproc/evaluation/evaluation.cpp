@@ -221,12 +221,24 @@ std::vector<PointForce> loads_at(const Evaluation& e, double time) {
 
 /// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as
 /// supports. Neither rests on a joint of the frame. Empty unless a stage is shown.
-std::vector<bool> blocks_left_out(const Evaluation& e) {
-  if (!is_stage(e.last.frame.role)) return {};
-  std::vector<bool> left_out(e.assembly.blocks.size(), true);
-  for (const JointWrench& joint : e.last.joints.wrenches)
+std::vector<bool> blocks_left_out(const Assembly& assembly, const FrameEvaluation& shown) {
+  if (!is_stage(shown.frame.role)) return {};
+  std::vector<bool> left_out(assembly.blocks.size(), true);
+  for (const JointWrench& joint : shown.joints.wrenches)
     if (joint.upper >= 0) left_out[joint.upper] = false;
   return left_out;
+}
+
+/// A stage bears loads other than weight once all blocks are laid: those on blocks that it does not hold.
+void leave_out_loads(const Evaluation& e, FrameEvaluation* stage) {
+  const std::vector<bool> left_out = blocks_left_out(e.assembly, *stage);
+  const bool holds = e.scene.analysis.staged.hold_below >= 0;
+  bool complete = true;
+  for (size_t i = 0; i < left_out.size(); ++i) {
+    const Block& block = e.assembly.blocks[i];
+    if (left_out[i] && !block.fixed && !(holds && block.ring <= stage->frame.time)) complete = false;
+  }
+  std::erase_if(stage->loads, [&](const PointForce& load) { return !complete || left_out[load.block]; });
 }
 
 void evaluate_cuts(const std::vector<bool>& left_out, Evaluation* e) {
@@ -294,14 +306,15 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   if (e.scene.analysis.plane) spread_across_plane(&out.frame.contacts);
   const bool mechanism = is_mechanism(out.frame.role);
   out.poses.of_block = contact_poses_of(e.assembly, out.frame.blocks);
-  const Loads& loads = e.acting;
-  if (out.frame.role != FrameRole::self_stress) {
-    // The time of an end of a range is its number: all these states bear the same loads.
-    const double time = out.frame.role == FrameRole::range_end ? 0.0 : out.frame.time;
-    out.gravity = factor_at(loads.dead_load_time, time) * loads.gravity;
-    out.loads = loads_at(e, time);
-  }
   out.joints = joint_wrenches(e.assembly, out.frame.contacts, e.shell, unbalanced_force(e));
+  if (out.frame.role != FrameRole::self_stress) {
+    // The time of an end of a range is its number, that of a stage its course: they bear what acts at time 0.
+    const bool timeless = out.frame.role == FrameRole::range_end || is_stage(out.frame.role);
+    const double time = timeless ? 0.0 : out.frame.time;
+    out.gravity = factor_at(e.acting.dead_load_time, time) * e.acting.gravity;
+    out.loads = loads_at(e, time);
+    if (is_stage(out.frame.role)) leave_out_loads(e, &out);
+  }
   out.from_below = wrenches_from_below(e.assembly, out.joints, out.poses);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
   if (at_rest(e) && !mechanism)
@@ -344,7 +357,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         "wrenches on blocks count the forces of joints only, thrust lines those of joints and ties");
 
   e.last = evaluate_frame(e, std::move(shown));
-  const std::vector<bool> left_out = blocks_left_out(e);
+  const std::vector<bool> left_out = blocks_left_out(e.assembly, e.last);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   warn_of_props(&e);

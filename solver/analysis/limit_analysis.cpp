@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>
@@ -6,6 +7,7 @@
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/files/csv_columns.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "assembly/model/thickness.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
@@ -144,13 +146,30 @@ Bracket LimitRun::search_value() {
                 });
 }
 
+/// Of the factor of spread. Sliding joints remember the way, so that the result depends on the steps: they
+/// follow the blocks, because the bracket is chosen.
+double longest_step(const Model& model, double low, double high) {
+  constexpr int kFewest = 40;
+  constexpr double kShare = 0.01;  // of the smallest block, by which supports move in a step
+  const double step = (high - low) / kFewest;
+  std::vector<Pose> from = state_at_rest(model).poses, to = from;
+  place_supports(*model.assembly, model.support_motions, low, &from);
+  place_supports(*model.assembly, model.support_motions, low + step, &to);
+  double moved = 0.0;
+  for (size_t i = 0; i < from.size(); ++i)
+    moved =
+        std::max(moved, (to[i].p_WB - from[i].p_WB).norm() + from[i].q_WB.angularDistance(to[i].q_WB) *
+                                                                 std::cbrt(model.assembly->blocks[i].volume));
+  return step * std::min(1.0, kShare * smallest_block_size(*model.assembly) / moved);
+}
+
 Bracket LimitRun::follow_spread() {
   const LimitSearch& limit = scene.analysis.limit;
   const Model model = make_model(case_at(scene, 0.0), assembly);
-  EquilibriumPath path(model, detection_options(scene), options);
+  EquilibriumPath path(model, detection_options(scene), options, PathGeometry::end);
   return follow(
-      &path, limit.low, limit.high, bracket_width(scene.analysis),
-      [&](const LimitTrial& trial, const StaticSolution& solution) {
+      &path, {limit.low, limit.high, longest_step(model, limit.low, limit.high)},
+      bracket_width(scene.analysis), [&](const LimitTrial& trial, const StaticSolution& solution) {
         return keep(trial.value, {{}, model, path.start(), path.contacts(), path.memories(), solution});
       });
 }

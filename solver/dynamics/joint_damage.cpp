@@ -97,6 +97,22 @@ bool refine_step(const Model& model, const State& state, const ContactSet& conta
   return true;
 }
 
+bool let_closing_joints_bear(const StepProblem& step, const ContactSolution& motion, double h,
+                             ContactMemories* memories) {
+  bool any = false;
+  for (int i = 0; i < step.num_contacts; ++i) {
+    JointDamage& joint = memories->stored()[i].joint;
+    if (joint.opening == 0.0 || joint.bears) continue;
+    const double u_n = relative_velocity(step.problem, i, motion.v)[0] + step.support_velocity_of(i)[0];
+    if (h * u_n < -kRounding) any = joint.bears = true;
+  }
+  return any;
+}
+
+void let_joints_bear_and_pull(ContactMemories* memories) {
+  for (ContactMemory& memory : memories->stored()) memory.joint.opening = 0.0;
+}
+
 void add_inelastic_displacement(const JointLaw& law, const Vec3& displacement, const Vec3& gamma,
                                 JointDamage* joint) {
   const double added = added_damage(law, displacement, gamma, *joint);

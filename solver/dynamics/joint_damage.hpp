@@ -43,6 +43,14 @@ void begin_step(const ContactSet& contacts, ContactMemories* memories);
 bool refine_step(const Model& model, const State& state, const ContactSet& contacts, const StepProblem& step,
                  const ContactSolution& solution, const StepOptions& options, ContactMemories* memories);
 
+/// After a solve that found a motion: true if it closes pulled joints, which may stop it. They then bear in
+/// `memories`, and the step has to be solved again.
+bool let_closing_joints_bear(const StepProblem& step, const ContactSolution& motion, double h,
+                             ContactMemories* memories);
+
+/// Makes pulled joints bonded, for a proof that forces do not balance the loads whichever of them close.
+void let_joints_bear_and_pull(ContactMemories* memories);
+
 /// Inelastic velocity z of contact i, m/s.
 Vec3 inelastic_velocity(const ContactProblem& problem, int i, const ContactSolution& solution);
 

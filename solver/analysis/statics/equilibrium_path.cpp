@@ -48,9 +48,12 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
     solution = solve_static(model, start, contacts, *memories, found);
     found.time_advance = solution.time_advance;
     iterations += solution.iterations;
-    again = model.joints.has_strength() && solution.outcome == StaticOutcome::equilibrium &&
-            refine_step(model, start, contacts, solution.step, solution.step_solution,
-                        static_step_options(found, solution.h), memories);
+    again = model.joints.has_strength() &&
+            (solution.outcome == StaticOutcome::equilibrium
+                 ? refine_step(model, start, contacts, solution.step, solution.step_solution,
+                               static_step_options(found, solution.h), memories)
+                 : solution.outcome == StaticOutcome::moving &&
+                       let_closing_joints_bear(solution.step, solution.step_solution, solution.h, memories));
   }
   solution.iterations = iterations;
   if (again) {
@@ -85,7 +88,10 @@ void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
 bool EquilibriumPath::surely_moves_at(double value) {
   options_.control.reset();
   prepare(LoadedState(loaded_), value - loaded_.state.time);
-  if (model_.joints.has_strength()) begin_step(contacts_, &memories_);
+  if (model_.joints.has_strength()) {
+    begin_step(contacts_, &memories_);
+    let_joints_bear_and_pull(&memories_);
+  }
   const ContactProblem problem = first_static_problem(model_, start_, contacts_, memories_, options_).problem;
   MotionProof proof(problem, problem.h * applied_forces(model_, start_, value));
   return proof.search() == MotionProof::Answer::moves;
@@ -154,13 +160,12 @@ void EquilibriumPath::restore(const std::string& bytes) {
   detector_.restore(std::move(detection));
 }
 
-Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,
+Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_width,
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report) {
-  constexpr int kFirstSteps = 40;  // each step is accurate to second order in its length
   constexpr double kGrowth = 1.5;  // after a step that found an equilibrium
-  CUPOLA_ASSERT(low < high && relative_width > 0.0);
+  const auto& [low, high, longest] = range;
+  CUPOLA_ASSERT(low < high && longest > 0.0 && relative_width > 0.0);
   Bracket bracket;
-  const double longest = (high - low) / kFirstSteps;
   double step = longest;
   double next = low;
   while (true) {

@@ -74,10 +74,15 @@ class EquilibriumPath {
   int solves_ = 0;
 };
 
+struct PathRange {
+  double low = 0.0, high = 1.0;
+  double longest_step = 1.0;
+};
+
 /// Follows a path from `low`, at which the structure must stand, to `high`. The step is halved where no
 /// equilibrium is found, until it is below relative_width times the value. `report` receives every trial and
 /// returns false to abandon the search.
-Bracket follow(EquilibriumPath* path, double low, double high, double relative_width,
+Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_width,
                const std::function<bool(const LimitTrial&, const StaticSolution&)>& report);
 
 }  // namespace cupola

@@ -284,7 +284,10 @@ TEST(Evaluation, AStageLeavesOutHeldBlocksAndBlocksNotLaidYet) {
   stage.time = 1.0;
   Summary summary = column_summary(a);
   summary.analysis = AnalysisType::staged;
-  const Evaluation e = evaluated(a, {stage}, summary, column_case(), test::fresh_folder("results"));
+  Case scene = column_case();
+  scene.loads.forces = {{BlockRef{2}, a.blocks[2].centroid, Vec3(0, 0, -500), {}}};
+  const Evaluation e = evaluated(a, {stage}, summary, scene, test::fresh_folder("results"));
+  EXPECT_TRUE(e.last.loads.empty()) << "loads act once all blocks are laid";
   EXPECT_EQ(e.rings[0].blocks, 0);
   EXPECT_EQ(e.rings[1].blocks, 1);
   EXPECT_EQ(e.rings[2].blocks, 0);

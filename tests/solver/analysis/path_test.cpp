@@ -260,5 +260,24 @@ TEST(Path, RefusesAControlBlockThatDoesNotExist) {
   EXPECT_THROW(run(scene, couplet()), InputError);
 }
 
+// A block of 1 x 1 x 2 m and 40 kN is pushed at its top by 6 kN to one side, then to the other in one step; it
+// tips at 10 kN. The bed opens on one side, and bears there again: with a strength of 1 Pa as without.
+TEST(Path, AnOpenedJointWithTensileStrengthBearsWhenItCloses) {
+  for (const double tension : {0.0, 1.0, 100.0}) {
+    Case scene = testing::make_case(0.6, 1e-11, 0.01);
+    scene.joints.strength = {tension, 1e4};
+    scene.contact.subdivide = 4;
+    const Assembly block = testing::box_on_floor({1, 1, 2}, 20e3 / 9.81);
+    const TableInTime time{"", {0, 1, 1.000001, 2}, {0, 1, -1, -1}};
+    scene.loads.forces = {{BlockRef{1}, Vec3(0, 0, 2), Vec3(6e3, 0, 0), time}};
+    scene.analysis.type = AnalysisType::path;
+    scene.analysis.path.end = 2.0;
+    scene.analysis.path.steps = 4;
+    scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
+    const PathResult result = run(scene, block);
+    EXPECT_EQ(result.summary.status, Status::stable) << tension << ": " << result.summary.message;
+  }
+}
+
 }  // namespace
 }  // namespace cupola::path_test
