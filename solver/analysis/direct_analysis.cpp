@@ -241,7 +241,8 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     summarize_found(scene, limit, sinks, &summary);
   else
     summarize_not_found(scene, assembly, limit, sinks, &summary);
-  summary.message += gaps_note(limit.at_admissible.contacts, assembly);
+  const RigidScene& stands = limit.at_admissible;
+  summary.message += gaps_note(stands.model, stands.start, stands.contacts);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;
 }

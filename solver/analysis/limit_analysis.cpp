@@ -237,7 +237,7 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
     summary.message += "; the case itself stands";
   for (const std::optional<Probe>* probe : {&run.stable, &run.moving})
     if (*probe) {
-      summary.message += gaps_note((*probe)->contacts, assembly);
+      summary.message += gaps_note((*probe)->model, (*probe)->start, (*probe)->contacts);
       break;
     }
   if (run.moving && !run.moving->solution.proven)

@@ -148,7 +148,7 @@ std::optional<Summary> run_range(const Case& scene, const Assembly& assembly, co
       summary.message += fmt::format("; {} from others by symmetry", counted(run.images(), "end"));
     sinks.table("ranges.csv", ranges_csv(summary.ranges));
   }
-  summary.message += gaps_note(rigid.contacts, assembly);
+  summary.message += gaps_note(rigid.model, rigid.start, rigid.contacts);
   summary.solve_time_seconds = wall_seconds() - started;
   return summary;
 }

@@ -104,7 +104,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
         "unstable balance: it stands as on an edge, and a small disturbance would end the equilibrium; how "
         "far it is from falling: cupola assess");
   summary.unknowns /= scene.analysis.cyclic_sectors;
-  summary.message += gaps_note(contacts, assembly);
+  summary.message += gaps_note(model, rest, contacts);
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     summary.robustness = find_robustness(scene, assembly);

@@ -65,17 +65,21 @@ const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, 
   return detector->update(rest.poses, travel);
 }
 
+Vec3 relative_displacement(const Assembly& assembly, const State& state, const Contact& contact) {
+  const auto displacement = [&](int block, const Vec3& point) -> Vec3 {
+    const Pose& pose = state.poses[block];
+    return point - assembly.blocks[block].centroid - pose.q_WB.conjugate() * (point - pose.p_WB);
+  };
+  return displacement(contact.block_b, contact.point_b) - displacement(contact.block_a, contact.point_a);
+}
+
 ContactMemories memories_at_rest(const Model& model, const State& rest,
                                  const std::vector<Contact>& contacts) {
   ContactMemories memories = match_memories({}, contacts);
   if (model.support_motions.empty()) return memories;
-  const auto displacement = [&](int block, const Vec3& point) -> Vec3 {
-    const Pose& pose = rest.poses[block];
-    return point - model.assembly->blocks[block].centroid - pose.q_WB.conjugate() * (point - pose.p_WB);
-  };
   for (size_t i = 0; i < contacts.size(); ++i) {
     const Contact& c = contacts[i];
-    const Vec3 moved = displacement(c.block_b, c.point_b) - displacement(c.block_a, c.point_a);
+    const Vec3 moved = relative_displacement(*model.assembly, rest, c);
     memories.stored()[i].elastic_slip_A =
         rest.poses[c.block_a].q_WB.conjugate() * (moved - moved.dot(c.normal) * c.normal);
   }

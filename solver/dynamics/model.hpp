@@ -62,6 +62,9 @@ State state_at_rest(const Model& model);
 /// the size of a block.
 const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector);
 
+/// m, of the second side of a contact relative to the first, at its points, since the assembly was built.
+Vec3 relative_displacement(const Assembly& assembly, const State& state, const Contact& contact);
+
 /// Memories of these contacts: unloaded, but where a support has moved along a joint, it has stretched the
 /// tangential spring by as much. How far it has moved across the joint is in the gap.
 ContactMemories memories_at_rest(const Model& model, const State& rest, const std::vector<Contact>& contacts);

@@ -53,13 +53,16 @@ std::vector<double> static_violations(const ContactSet& contacts, const StaticSo
                         contact_law_errors(solution.step.problem, solution.step_solution, law));
 }
 
-std::string gaps_note(const ContactSet& contacts, const Assembly& assembly) {
-  const double closed = joint_rule(smallest_block_size(assembly), 0.0).min_width;
+std::string gaps_note(const Model& model, const State& start, const ContactSet& contacts) {
+  if (contacts.points.empty()) return "";
+  const double closed = joint_rule(smallest_block_size(*model.assembly), 0.0).min_width;
   int count = 0;
   double largest = 0.0;
   for (const Contact& contact : contacts.points) {
-    if (contact.gap > closed) ++count;
-    largest = std::max(largest, contact.gap);
+    const double moved = contact.normal.dot(relative_displacement(*model.assembly, start, contact));
+    const double drawn = contact.gap - moved;
+    if (drawn > closed) ++count;
+    largest = std::max(largest, drawn);
   }
   if (count == 0) return "";
   return fmt::format("; {} with gaps of up to {:.2g} mm {} within `contact.margin` and may carry forces",

@@ -13,10 +13,10 @@ Status status_of(StaticOutcome outcome, bool proven);
 std::vector<double> static_violations(const ContactSet& contacts, const StaticSolution& solution,
                                       const FlowRule& law);
 
-/// A clause for the message if joints have gaps above 1e-3 of the smallest block, the least width of a joint
-/// (joint_rule.hpp): their number and the largest gap. They count as joints because they are within
-/// `contact.margin`. Empty if there are none.
-std::string gaps_note(const ContactSet& contacts, const Assembly& assembly);
+/// A clause for the message if joints were drawn with gaps above 1e-3 of the smallest block, the least width
+/// of a joint (joint_rule.hpp): their number and the largest gap. They count as joints because they are within
+/// `contact.margin`. Empty if there are none: what supports have opened is no gap of the drawing.
+std::string gaps_note(const Model& model, const State& start, const ContactSet& contacts);
 
 /// The frame of a static solve. Equilibrium: displacements h v, gaps after the displacement, velocities zero.
 /// Motion: no displacements, velocities scaled so that the fastest block moves at 1 m/s. Unconverged:

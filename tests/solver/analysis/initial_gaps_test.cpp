@@ -17,6 +17,14 @@ Assembly slab(double higher) {
                               {.center = {0, 0, 0.25}, .size = {5, 1, 0.5}}});
 }
 
+/// The message of statics whose middle pier, drawn 2 mm too low or not, has sunk by 3 mm.
+std::string message_after_sinking(double drawn_lower) {
+  Case scene = testing::make_case(0.7, kCompliance, 0.01);
+  scene.analysis.type = AnalysisType::static_;
+  scene.supports.moves = {{.region = {.blocks = {BlockRef{1}}}, .displacement = {0, 0, -3e-3}, .time = {}}};
+  return run_static(scene, slab(-drawn_lower), {}).message;
+}
+
 /// m, of the slab upwards.
 double rise(const Assembly& assembly, ContactDetection::InitialGaps gaps) {
   Case scene = testing::make_case(0.7, kCompliance, 0.01);
@@ -43,6 +51,14 @@ TEST(InitialGaps, CountAsDrawnOrAsErrorsOfTheDrawing) {
   EXPECT_NEAR(rise(high, keep), kError - sinks / 4.0, tolerance);
   EXPECT_NEAR(rise(low, ignore), -sinks / 12.0, tolerance);
   EXPECT_NEAR(rise(high, ignore), -sinks / 12.0, tolerance);
+}
+
+// The note sends readers to the drawing, which has no gap where a support has moved away.
+TEST(InitialGaps, AreNoMovementsOfSupports) {
+  EXPECT_EQ(message_after_sinking(0.0).find("gaps of up to"), std::string::npos)
+      << message_after_sinking(0.0);
+  const std::string drawn = message_after_sinking(2e-3);
+  EXPECT_NE(drawn.find("4 contact points with gaps of up to 2 mm"), std::string::npos) << drawn;
 }
 
 }  // namespace
