@@ -50,8 +50,9 @@ RangeObjective objective_of(const JointForce& joint, const ForceScene& scene) {
   const BlockPair& pair = scene.joints.pair(joint.block_a, joint.block_b);
   const RangeObjective pressure = normal_force(joint.block_a, joint.block_b, scene);
   if (joint.component == normal) return pressure;
-  const std::string name = fmt::format("{} of joint {}-{}", to_string(joint.component),
-                                       scene.label(joint.block_a), scene.label(joint.block_b));
+  const std::string name =
+      fmt::format("{} of joint {}-{}{}", to_string(joint.component), scene.label(joint.block_a),
+                  scene.label(joint.block_b), along_text(joint.direction));
   if (joint.component == eccentricity) {
     const Vec3 d = in_plane(joint, pair, scene);
     ForceFunctional moment = pressure.value;

@@ -139,12 +139,9 @@ std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction
     return vertical ? kDown : scene_.joints.outward(point, block);
   };
   if (!scene_.fixed(reaction.block)) base_blocks({BaseBlocks::Group::listed, {reaction.block}});
-  const std::string name =
-      reaction.direction
-          ? fmt::format("reaction of block {} along ({:g}, {:g}, {:g})", scene_.label(reaction.block),
-                        reaction.direction->x(), reaction.direction->y(), reaction.direction->z())
-          : fmt::format("{} reaction of block {}", to_string(reaction.component),
-                        scene_.label(reaction.block));
+  const std::string name = fmt::format(
+      "{}reaction of block {}{}", reaction.direction ? "" : fmt::format("{} ", to_string(reaction.component)),
+      scene_.label(reaction.block), along_text(reaction.direction));
   return {{name, "N", on_supports({reaction.block}, direction), {}}};
 }
 
@@ -180,6 +177,11 @@ std::vector<RangeObjective> Objectives::operator()(const RestraintForce& restrai
 }
 
 }  // namespace
+
+std::string along_text(const std::optional<Vec3>& direction) {
+  if (!direction) return "";
+  return fmt::format(" along ({:g}, {:g}, {:g})", direction->x(), direction->y(), direction->z());
+}
 
 std::vector<RangeObjective> range_objectives(const ForceQuantity& quantity, const Case& scene,
                                              const Model& model, const ContactSet& contacts) {

@@ -11,6 +11,9 @@ namespace cupola {
 std::vector<RangeObjective> range_objectives(const ForceQuantity& quantity, const Case& scene,
                                              const Model& model, const ContactSet& contacts);
 
+/// " along (x, y, z)" where a direction is given: quantities of one joint or block differ by it alone.
+std::string along_text(const std::optional<Vec3>& direction);
+
 // Those of single joints and courses, for range_objectives().
 RangeObjective objective_of(const JointForce& joint, const ForceScene& scene);
 RangeObjective objective_of(const HoopForce& hoop, const ForceScene& scene);

@@ -256,6 +256,21 @@ TEST(Range, WithoutAdmissibleState) {
   ASSERT_EQ(frames.size(), 1u);
 }
 
+// Ranges of one joint in two directions are told apart by their names alone.
+TEST(Range, NamesTheDirectionOfAJoint) {
+  using enum JointForce::Component;
+  const std::vector<ForceRange> ranges =
+      ranges_of(
+          range_case(0.4, {joint(0, 1, resultant, Vec3::UnitX()), joint(0, 1, resultant, Vec3(0.0, 0.5, 1.0)),
+                           joint(0, 1, shear, Vec3::UnitY())}),
+          testing::box_on_floor({1, 1, 1}))
+          .ranges;
+  ASSERT_EQ(ranges.size(), 3u);
+  EXPECT_EQ(ranges[0].quantity, "resultant of joint 0-1 along (1, 0, 0)");
+  EXPECT_EQ(ranges[1].quantity, "resultant of joint 0-1 along (0, 0.5, 1)");
+  EXPECT_EQ(ranges[2].quantity, "shear of joint 0-1 along (0, 1, 0)");
+}
+
 TEST(Range, RefusesWhatTheModelDoesNotHave) {
   const Assembly pair = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
                                              {.center = {0, 0, 0.5}},
