@@ -4,12 +4,12 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <optional>
 
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/layer_facets.hpp"
+#include "postproc/mechanics/skin_facet.hpp"
 
 namespace cupola {
 namespace {
@@ -42,31 +42,6 @@ std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, c
     if (d.norm() > 0.0) progress[k] = d.normalized();
   }
   return progress;
-}
-
-/// Index of the edge of `face` that it shares with a face of the given kind of the same part.
-std::optional<size_t> edge_on(const Assembly& assembly, const Part& part, std::span<const int> face,
-                              FaceKind kind) {
-  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-    if (assembly.face_kinds[f] != kind) continue;
-    const auto skin = assembly.face(f);
-    for (size_t i = 0; i < face.size(); ++i)
-      for (size_t j = 0; j < skin.size(); ++j)  // neighbouring faces run along an edge in opposite directions
-        if (face[i] == skin[(j + 1) % skin.size()] && face[(i + 1) % face.size()] == skin[j]) return i;
-  }
-  return std::nullopt;
-}
-
-/// Adds face `f` of a part to a bed if it touches both skins, as it does in a shell of one wythe.
-void add_facet(const Assembly& assembly, const Part& part, int f, std::vector<BedFacet>* bed) {
-  const auto face = assembly.face(f);
-  const auto inner = edge_on(assembly, part, face, FaceKind::intrados);
-  const auto outer = edge_on(assembly, part, face, FaceKind::extrados);
-  if (!inner || !outer) return;
-  const auto vertex = [&](size_t i) { return assembly.vertices[face[i % face.size()]]; };
-  // Going round the face, the two edges run in opposite directions.
-  bed->push_back({part.block, vertex(*inner), vertex(*inner + 1), vertex(*outer + 1), vertex(*outer),
-                  assembly.face_kinds[f] == FaceKind::internal});
 }
 
 double median(std::vector<double> values) {
@@ -208,7 +183,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
     if (has_layers)
       facets.add(part, f, bed);
     else
-      add_facet(assembly, part, f, &shell.beds[bed]);
+      add_skin_facet(assembly, part, f, &shell.beds[bed]);
   };
   for (const Part& part : assembly.parts) {
     if (part.ring < 0) continue;

@@ -234,8 +234,8 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
     sum.add(share * turned(in, id, w, turn, route.axis));
     const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
     // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
-    // block's wrench.
-    const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian);
+    // block's wrench; that of a bent stone runs inside its bend.
+    const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian || block.facets.size() > 1);
     const auto [normal, at] = at_points ? push_at_points(in, route, bed, block) : push_of(in, w, bed, block);
     weighted_position += share * normal * layers.position(at);
     pressing += share * normal;

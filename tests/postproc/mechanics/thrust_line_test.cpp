@@ -62,6 +62,87 @@ TEST(ThrustLine, PositionAndResultantAreFoundAtEveryAzimuth) {
   }
 }
 
+/// Eight stones on a support, bent round the corners of an octagon at multiples of 45 degrees, 2 m from the
+/// axis to the middle of its sides. Each is two parts; the first goes on along the plane of its intrados.
+Assembly octagon_of_bent_stones() {
+  const double angle = std::numbers::pi / 8, c = std::cos(angle), s = std::sin(angle);
+  const double first[][2] = {{2.1 / c, -0.1 / s}, {2.2 / c, 0.0}, {2.0 * c, 2.0 * s}, {2.2 * c, 2.2 * s}};
+  const double second[][2] = {{2.0 * c, -2.0 * s}, {2.2 * c, -2.2 * s}, {2.0 / c, 0.0}, {2.1 / c, -0.1 / s}};
+  Assembly a;
+  a.num_rings = 1;
+  a.sheets = {{"vault", 0, 1, true, Sheet::ThrustLines::by_azimuth}};
+  Block support;
+  support.kind = BlockKind::support;
+  support.fixed = true;
+  support.ring = -1;
+  a.blocks.push_back(support);
+  test::add_box(&a, 0, -1, {-3, -3, -1}, {3, 3, 0}, FaceKind::bed);
+  for (int k = 1; k <= 8; ++k) {
+    const Eigen::AngleAxisd turn(2.0 * k * angle, Vec3::UnitZ());
+    const auto add_corners = [&](const double corners[4][2]) {
+      for (int i = 0; i < 8; ++i)
+        a.vertices.push_back(turn * Vec3(corners[i % 4][0], corners[i % 4][1], i < 4 ? 0.0 : 1.0));
+    };
+    Block block;
+    block.ring = 0;
+    block.slot = k;
+    block.density = 1800.0;
+    a.blocks.push_back(block);
+    using enum FaceKind;
+    add_corners(first);
+    test::add_hexahedron(&a, k, 0, {bed, top, intrados, extrados, extrados, head});
+    add_corners(second);
+    test::add_hexahedron(&a, k, 0, {bed, top, intrados, extrados, head, internal});
+  }
+  compute_mass_properties(&a);
+  return a;
+}
+
+/// Points under both parts of the stones, at 0.3 of the thickness; 1000 N on each stone.
+ContactTable contacts_under_bent_stones() {
+  ContactTable c;
+  for (int i = 0; i < 32; ++i) {
+    const int stone = 1 + i / 4;
+    const double to_side = (i % 2 ? 1.0 : -1.0) * std::numbers::pi / 8;
+    const double across = (i % 4 < 2 ? 0.1 : 0.5) * (i % 2 ? -1.0 : 1.0);  // m, from the middle of the side
+    const Eigen::AngleAxisd turn(stone * std::numbers::pi / 4 + to_side, Vec3::UnitZ());
+    c.joint.push_back(stone - 1);
+    c.block_a.push_back(0);
+    c.block_b.push_back(stone);
+    c.kind.push_back(JointKind::base);
+    c.ring.push_back(0);
+    c.point.push_back(turn * Vec3(2.06, across, 0.0));
+    c.normal.push_back(Vec3::UnitZ());
+    c.force.emplace_back(0.0, 0.0, 250.0);
+    c.normal_force.push_back(250.0);
+    c.area.push_back(0.04);
+    for (auto* v : {&c.gap, &c.friction_use, &c.slip, &c.law_violation}) v->push_back(0.0);
+  }
+  return c;
+}
+
+// Wherever the meridian runs: through a corner, a head joint, the middle of a part, and where the parts
+// overlap (up to 6.6 degrees before the corner). Tolerances: rounding.
+TEST(ThrustLine, HasItsPositionOnBentStones) {
+  const Assembly a = octagon_of_bent_stones();
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  EXPECT_NEAR(shell.block_width_rad.front(), std::numbers::pi / 4, 1e-12);
+  const ContactTable contacts = contacts_under_bent_stones();
+  const JointWrenches joints = joint_wrenches(a, contacts, shell);
+  const ThrustInput input{&a, &shell, &contacts, &joints, wrenches_from_below(a, joints), {0, 0, -9.81}};
+  for (const double azimuth : {0.0, 22.5, 10.0, -10.0, -3.0}) {
+    const ThrustLine line = thrust_line(input, "m", azimuth);
+    ASSERT_FALSE(line.points.empty()) << azimuth;
+    const ThrustPoint& p = line.points.front();
+    EXPECT_NEAR(p.position, 0.3, 1e-9) << azimuth;
+    EXPECT_NEAR(p.v, 1000.0, 1e-6) << azimuth;
+    const double side = azimuth < 0.0 ? -std::numbers::pi / 8 : std::numbers::pi / 8;
+    const Vec3 normal(std::cos(side), std::sin(side), 0.0);
+    EXPECT_NEAR(normal.dot(p.intrados), 2.0, 1e-12) << azimuth;
+    EXPECT_NEAR(normal.dot(p.extrados), 2.2, 1e-12) << azimuth;
+  }
+}
+
 // The strip is as wide as a standard block, or as the blocks that are there.
 TEST(ThrustLine, VaultOfUprightsAloneHasAStrip) {
   MeridianScene scene(3, 12, 0.0, 0.3, -100.0, 1000.0);
