@@ -144,7 +144,8 @@ std::vector<Figure> result_figures(const Evaluation& e, const std::vector<Histor
   if (history.size() > 1) figures.push_back(history_figure(e, history));
   if (!at_rest(e)) return figures;
   for (const MeridianEvaluation& m : e.meridians)
-    if (m.thrust.points.size() > 1) figures.push_back(thrust_figure(e, m));
+    if (const auto points = std::ssize(m.thrust.points); points > 1 && m.thrust.undefined < points)
+      figures.push_back(thrust_figure(e, m));
   if (std::any_of(e.rings.begin(), e.rings.end(), shows_anything)) figures.push_back(ring_figure(e));
   if (std::any_of(e.sections.begin(), e.sections.end(), [](const auto& s) { return !s.resultants.empty(); }))
     figures.push_back(levels_figure(e));

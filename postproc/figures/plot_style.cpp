@@ -26,8 +26,6 @@ std::string arrows(const std::string& data, const char* colour) {
 }
 
 std::string describe(const ThrustLine& line) {
-  if (line.undefined == static_cast<int>(line.points.size()))
-    return "There is no thrust line: no bed of the meridian is in compression.";
   const std::string safety = std::isinf(line.least_geometric_safety)
                                  ? "it runs through the middle of every bed"
                                  : fmt::format("where half the thickness is {:.3g} times the eccentricity",

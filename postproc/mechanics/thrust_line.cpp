@@ -23,6 +23,9 @@ constexpr double kLeastNormalShare = 0.1;
 /// blocks, which its joint lets approach.
 constexpr double kOnFace = 1e-4;
 
+/// Share of a block or facet that is the rounding of its corners.
+constexpr double kRounding = 1e-9;
+
 /// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole
 /// thickness.
 struct Route {
@@ -49,7 +52,7 @@ double overlap(const BlockBed& block, double center, double width) {
   const double offset = wrapped(center - middle);
   const double half = 0.5 * (block.to - block.from);
   const double common = std::min(half, offset + width / 2) - std::max(-half, offset - width / 2);
-  return half > 0.0 ? std::max(0.0, common) / (2.0 * half) : 0.0;
+  return common > kRounding * 2.0 * half ? common / (2.0 * half) : 0.0;
 }
 
 /// Adds what balances the loads on the piece of a block above a bed inside the block.
@@ -126,7 +129,10 @@ std::optional<FacetEdges> edges_on(const BedFacet& f, const Route& route, const 
   const Vec3 outwards = route.axis.towards(*route.meridian), across(-outwards.y(), outwards.x(), 0.0);
   const Vec3 foot(route.axis.origin.x(), route.axis.origin.y(), 0.0);
   const double a = across.dot(f.intrados_a - foot), b = across.dot(f.intrados_b - foot);
-  if (a * b > 0.0 || a == b || outwards.dot(f.intrados_a - foot) <= 0.0) return std::nullopt;
+  // Of two facets whose joint is on the meridian, both may end just beside it.
+  const double rounding = kRounding * std::abs(a - b);
+  if (std::min(a, b) > rounding || std::max(a, b) < -rounding || a == b) return std::nullopt;
+  if (outwards.dot(f.intrados_a - foot) <= 0.0) return std::nullopt;
   const auto meet = [&](const Vec3& p, const Vec3& q) {
     const double s = across.dot(p - foot), t = across.dot(q - foot);
     return s == t ? p : Vec3(p + s / (s - t) * (q - p));

@@ -13,6 +13,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/model/outward.hpp"
 #include "postproc/compare/side_by_side.hpp"
+#include "postproc/evaluation/meridians.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
@@ -342,6 +343,12 @@ TEST(Figures, AreLeftOutWhereEverythingIsNegligible) {
   EXPECT_EQ(names(test::column_evaluation(0.6, 0.4)).find("rings"), std::string::npos)
       << "central and without friction";
   EXPECT_NE(names(test::column_evaluation(0.9, 0.4)).find("rings"), std::string::npos);
+  Evaluation e = test::column_evaluation(0.9, 0.4);
+  e.meridians.resize(1);
+  e.meridians[0].thrust = thrust_line(thrust_input(e, e.last), "arch", std::nullopt);
+  EXPECT_NE(names(e).find("thrust"), std::string::npos);
+  e.meridians[0].thrust.undefined = static_cast<int>(e.meridians[0].thrust.points.size());
+  EXPECT_EQ(names(e).find("thrust"), std::string::npos) << "no point of the line has a place";
   ShellMap map{false, 2, {}};
   map.boxes.resize(1);
   map.boxes[0].meridional_force = 1e3;

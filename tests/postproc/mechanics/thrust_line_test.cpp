@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -140,6 +141,22 @@ TEST(ThrustLine, HasItsPositionOnBentStones) {
     const Vec3 normal(std::cos(side), std::sin(side), 0.0);
     EXPECT_NEAR(normal.dot(p.intrados), 2.0, 1e-12) << azimuth;
     EXPECT_NEAR(normal.dot(p.extrados), 2.2, 1e-12) << azimuth;
+  }
+}
+
+// Two stones of the first bed stop 1e-12 rad beside their joint over the meridian, and the neighbours of the
+// stone that fills the strip on the second one reach as far into it.
+TEST(ThrustLine, DoesNotDependOnRounding) {
+  MeridianScene scene(2, 8, 0.0, 0.3, -300.0, 1000.0);
+  for (const auto& [block, angle] : {std::pair(0, 1e-12), {7, -1e-12}, {8, -1e-12}, {14, 1e-12}})
+    for (int v = 8 * block; v < 8 * block + 8; ++v)
+      scene.assembly.vertices[v] = Eigen::AngleAxisd(angle, Vec3::UnitZ()) * scene.assembly.vertices[v];
+  scene.shell = shell_of(scene.assembly, Vec3::UnitZ());
+  const ThrustLine line = thrust_line(scene.input(), "m", 0.0);
+  ASSERT_EQ(line.points.size(), 2u);
+  for (const ThrustPoint& p : line.points) {
+    EXPECT_NEAR(p.position, 0.3, 1e-9) << "what a turn by 1e-12 rad may change";
+    EXPECT_EQ(p.blocks, p.bed == 0 ? 2 : 1);
   }
 }
 
