@@ -98,10 +98,7 @@ Equilibrium compute_equilibrium(const Model& model, const State& state, const Co
     const double size = std::cbrt(blocks[block].volume);
     const double unbalanced = std::max(sum.force[block].norm(), sum.moment[block].norm() / size) / scale;
     // Written so that NaN counts as the largest.
-    if (!(unbalanced <= balance.residual)) {
-      balance.residual = unbalanced;
-      balance.worst_block = block;
-    }
+    if (!(unbalanced <= balance.residual)) balance.residual = unbalanced;
   }
   balance.inertia_share = inertia_share(balance);
   return balance;

@@ -19,7 +19,6 @@ struct Equilibrium {
   /// Largest over the free blocks of |F| / W and |M| / (W L): F, M unbalanced force and moment about the
   /// centroid, W mean block weight, L cube root of the volume of the block. Inertia counts as imbalance.
   double residual = 0.0;
-  int worst_block = -1;                  ///< block with the largest residual
   Vec3 applied_load = Vec3::Zero();      ///< N, gravity and loads on the free blocks
   Vec3 support_reaction = Vec3::Zero();  ///< N, of fixed blocks on free blocks
   double inertia_share = 0.0;            ///< fraction of the applied load that the supports do not carry

@@ -148,7 +148,6 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
     next_h_ = next_step(*options_.adaptive, step.integrator, step.h, report.time_error);
     if (report.time_error <= kTolerated * options_.adaptive->displacement_error || next_h_ >= step.h) break;
     step.h = next_h_;
-    ++report.num_rejected;
     // The contacts are those of the middle of the step, which moves.
     if (!step.integrator.is_euler()) {
       const State again = middle_of_step(model, *state, step);

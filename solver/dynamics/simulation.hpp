@@ -31,7 +31,6 @@ struct StepReport {
       0.0;        ///< m, estimated error of a displacement in this step, of the block where it is largest
   Energy energy;  ///< at the end of the step
   double elastic_impact = 0.0;  ///< s, elastic_impact()
-  int num_rejected = 0;         ///< larger steps that the step control rejected
   int num_asleep = 0;           ///< free blocks that slept
 };
 

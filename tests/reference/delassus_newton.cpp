@@ -8,7 +8,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/base/process.hpp"
 #include "solver/contact/problem/cone.hpp"
 
 namespace cupola {
@@ -107,7 +106,6 @@ SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOption
   constexpr double kLargestShare = 1e3, kSmallestShare = 1e-6;
   CUPOLA_ASSERT(problem.q.size() == 3 * problem.num_contacts());
   CUPOLA_ASSERT(problem.W.rows() == problem.q.size() && problem.W.cols() == problem.q.size());
-  const double start = wall_seconds();
   SolveSummary summary;
   const auto measure = [&](const VecX& g) {
     return std::max(fclib_merit(problem, g, options.law), scaled_merit(problem, g, options.law));
@@ -143,7 +141,6 @@ SolveSummary solve_delassus(const DelassusProblem& problem, const DelassusOption
   summary.message =
       fmt::format("merit {:.2e} {} tolerance {:.2e} after {}", best_error, converged ? "<=" : ">",
                   options.tolerance, counted(summary.outer_iterations, "outer iteration"));
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

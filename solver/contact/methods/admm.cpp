@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/base/process.hpp"
 #include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -75,7 +74,6 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
   constexpr int kIterationsPerCheck = 5;
   constexpr int kIterationsPerBalance = 20;
   constexpr double kImbalance = 3.0;  // smaller corrections of rho are not worth a factorisation
-  const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
@@ -112,7 +110,6 @@ SolveSummary solve_admm(const ContactProblem& problem, const SolveOptions& optio
       ++summary.factorizations;
     }
   }
-  summary.time_seconds = wall_seconds() - start;
   if (!valid || !std::isfinite(best)) {
     summary.message =
         fmt::format("the penalised mass matrix is not positive definite in double precision (iteration {})",

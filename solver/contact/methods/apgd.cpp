@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/runtime/interruption.hpp"
 #include "solver/runtime/iteration_log.hpp"
@@ -13,7 +12,6 @@ namespace cupola {
 SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution) {
   constexpr double kRelaxation = 0.9, kGrowth = 2.0;
-  const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
@@ -69,7 +67,6 @@ SolveSummary solve_apgd(const ContactProblem& problem, const SolveOptions& optio
   }
   *solution = {dual.velocities(best), best};
   finish_dual(dual, best_accuracy, options, stalled, &summary);
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/coulomb_direction.hpp"
 #include "solver/contact/methods/coulomb_subproblem.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -83,13 +82,11 @@ class CoulombSolve {
       : problem_(problem), options_(options), kept_(kept), solution_(solution) {}
 
   SolveSummary run() {
-    const double started = wall_seconds();
     choose_start();
     if (rigid_ || !solve_by_newton()) {
       solve_by_proximal_points();
       conclude();
     }
-    summary_.time_seconds = wall_seconds() - started;
     return summary_;
   }
 

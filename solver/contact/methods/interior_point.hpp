@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solver/contact/blocks/block_cholesky.hpp"
 #include "solver/contact/problem/contact_problem.hpp"
 #include "solver/contact/problem/solve_options.hpp"
 #include "solver/contact/problem/solve_summary.hpp"

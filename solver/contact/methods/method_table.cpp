@@ -23,13 +23,13 @@ SolveSummary stateless(NewtonSolver&, const ContactProblem& problem, const Solve
 
 // clang-format off
 constexpr std::array<MethodTraits, 6> kMethodTable{{
-    // method                       primal  factor multigrid fails fast  solve
-    {ContactMethod::newton,         true,   true,  true,     true,       solve_newton_with_fallback},
-    {ContactMethod::interior_point, true,   true,  false,    false,      solve_interior_point_then_newton},
-    {ContactMethod::spg,            false,  false, false,    false,      stateless<solve_spg>},
-    {ContactMethod::apgd,           false,  false, false,    false,      stateless<solve_apgd>},
-    {ContactMethod::nsgs,           false,  false, false,    false,      stateless<solve_nsgs>},
-    {ContactMethod::admm,           false,  true,  false,    false,      stateless<solve_admm>},
+    // method                       primal  factor multigrid  solve
+    {ContactMethod::newton,         true,   true,  true,      solve_newton_with_fallback},
+    {ContactMethod::interior_point, true,   true,  false,     solve_interior_point_then_newton},
+    {ContactMethod::spg,            false,  false, false,     stateless<solve_spg>},
+    {ContactMethod::apgd,           false,  false, false,     stateless<solve_apgd>},
+    {ContactMethod::nsgs,           false,  false, false,     stateless<solve_nsgs>},
+    {ContactMethod::admm,           false,  true,  false,     stateless<solve_admm>},
 }};
 // clang-format on
 static_assert(kMethodTable.size() == enum_names(ContactMethod{}).size());

@@ -19,9 +19,6 @@ struct MethodTraits {
   bool uses_factor;  ///< factorises a Hessian with the pattern of the contact graph
   /// Solves problems of many blocks (has_many_blocks) by multigrid-preconditioned CG instead of a factor.
   bool uses_multigrid;
-  /// A solve that converges does so within usual_newton_iterations(). A static analysis may then try one
-  /// large step at once, because a failure costs little.
-  bool fails_fast;
   /// Solves the convex (associated) problem: guess in, solution out. `newton` keeps its ordering and factor
   /// between calls; methods that do not use it ignore it.
   SolveSummary (*solve)(NewtonSolver& newton, const ContactProblem& problem, const SolveOptions& options,

@@ -8,7 +8,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/block_descent.hpp"
 #include "solver/contact/methods/primal_cost.hpp"
 #include "solver/contact/problem/cone.hpp"
@@ -249,7 +248,6 @@ int usual_newton_iterations(const ContactProblem& problem) {
 
 SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptions& options,
                                  ContactSolution* solution) {
-  const double start = wall_seconds();
   options.validate();
   if (const std::string defect = problem.defect(); !defect.empty()) return failed(defect);
   if (const std::optional<int> rigid = first_rigid_contact(problem))
@@ -280,7 +278,6 @@ SolveSummary NewtonSolver::solve(const ContactProblem& problem, const SolveOptio
   solution->v = white.to_v(point.w);
   solution->gamma = point.gamma;
   CUPOLA_ASSERT(!summary.usable() || (solution->v.allFinite() && solution->gamma.allFinite()));
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

@@ -1,6 +1,5 @@
 #include "solver/contact/methods/nsgs.hpp"
 
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/contact/methods/local_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
@@ -40,7 +39,6 @@ void sweep(const ContactProblem& p, const std::vector<Mat6>& M_inverse, const st
 SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& options,
                         ContactSolution* solution) {
   constexpr int kSweepsPerCheck = 10;
-  const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
@@ -64,7 +62,6 @@ SolveSummary solve_nsgs(const ContactProblem& problem, const SolveOptions& optio
   }
   *solution = {dual.velocities(gamma), gamma};
   finish_dual(dual, accuracy, options, false, &summary);
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

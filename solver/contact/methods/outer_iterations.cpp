@@ -8,7 +8,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/anderson.hpp"
 #include "solver/contact/problem/residuals.hpp"
 
@@ -171,13 +170,11 @@ void OuterIteration::run(const ConvexSolve& solve, ContactSolution* best_solutio
 
 SolveSummary solve_by_outer_iterations(const ContactProblem& problem, const OuterOptions& options,
                                        const ConvexSolve& solve, ContactSolution* solution) {
-  const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
   OuterIteration(problem, options, *solution).run(solve, solution, &summary);
   CUPOLA_ASSERT(!summary.usable() || (solution->v.allFinite() && solution->gamma.allFinite()));
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "assembly/base/error.hpp"
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/method_table.hpp"
 #include "solver/contact/methods/outer_iterations.hpp"
 #include "solver/contact/problem/cone.hpp"
@@ -25,7 +24,6 @@ constexpr int kRescueOuterIterations = 80;  // a dome that slides on 1e-14 m/N t
 std::optional<SolveSummary> keep_at_rest(const ContactProblem& problem, const ContactSolverOptions& options,
                                          ContactSolution* solution) {
   if (solution->gamma.size() != problem.b.size()) return std::nullopt;
-  const double start = wall_seconds();
   ContactSolution rest{VecX::Zero(problem.v_star.size()), solution->gamma};
   if (!(momentum_residual(problem, rest, options.reference_speed) <= options.tolerance)) return std::nullopt;
   const Residuals residuals = compute_residuals(problem, rest, options.reference_speed, options.law);
@@ -38,7 +36,6 @@ std::optional<SolveSummary> keep_at_rest(const ContactProblem& problem, const Co
   summary.residual_history = {summary.reached};
   summary.message =
       residuals_text(residuals, options.tolerance) + ", at rest under the impulses of the last step";
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

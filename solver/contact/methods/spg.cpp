@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <deque>
 
-#include "assembly/base/process.hpp"
 #include "solver/contact/methods/dual_problem.hpp"
 #include "solver/runtime/interruption.hpp"
 #include "solver/runtime/iteration_log.hpp"
@@ -33,7 +32,6 @@ double nonmonotone_step(double f, double gd, double dAd, const std::deque<double
 
 SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& options,
                        ContactSolution* solution) {
-  const double start = wall_seconds();
   options.validate();
   SolveSummary summary;
   if (summary.message = problem.defect(); !summary.message.empty()) return summary;
@@ -76,7 +74,6 @@ SolveSummary solve_spg(const ContactProblem& problem, const SolveOptions& option
   }
   *solution = {dual.velocities(best), best};
   finish_dual(dual, best_accuracy, options, stalled, &summary);
-  summary.time_seconds = wall_seconds() - start;
   return summary;
 }
 

@@ -34,7 +34,6 @@ void SolveSummary::add_work(const SolveSummary& other) {
 SolveSummary SolveSummary::after(const SolveSummary& earlier) const {
   SolveSummary both = *this;
   both.add_work(earlier);
-  both.time_seconds += earlier.time_seconds;
   both.residual_history.insert(both.residual_history.begin(), earlier.residual_history.begin(),
                                earlier.residual_history.end());
   return both;

@@ -44,7 +44,6 @@ struct SolveSummary {
   int conjugate_gradients = 0;  ///< CG iterations of Newton directions
   int line_search_evaluations = 0;
   std::vector<double> residual_history;  ///< measure of the method's stopping rule, per iteration
-  double time_seconds = 0.0;
   bool usable() const { return ending != SolveEnding::failed; }
 
   /// Adds the counts of work of another solve: iterations, factorisations, conjugate gradients, evaluations.
