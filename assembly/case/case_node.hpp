@@ -31,6 +31,14 @@ struct CaseNode::Entry {
   CaseNode value;
 };
 
+inline CaseNode scalar_node(const std::string& text, bool quoted = false) {
+  CaseNode node;
+  node.kind = CaseNode::Kind::scalar;
+  node.text = text;
+  node.quoted = quoted;
+  return node;
+}
+
 /// Text on one line for a message: control characters become `?`, long text is shortened.
 std::string shown(std::string_view text);
 /// The same for any node: `[...]` for a list, `{...}` for a map.

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "assembly/case/section_text.hpp"
 #include "assembly/case/suggestion.hpp"
 
 namespace cupola {
@@ -196,7 +196,7 @@ void Section::check_names() const {
                                 : near.empty() ? "."
                                                : fmt::format("; did you mean {}?", near);
       throw InputError(where, fmt::format("{}: unknown key{} Valid keys here: {}", shown(path_of(key)), meant,
-                                          joined(known_)));
+                                          fmt::join(known_, ", ")));
     }
   }
 }

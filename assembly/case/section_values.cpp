@@ -4,11 +4,11 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/case/bundled.hpp"
 #include "assembly/case/case_tree.hpp"
 #include "assembly/case/section.hpp"
-#include "assembly/case/section_text.hpp"
 #include "assembly/case/suggestion.hpp"
 
 namespace cupola {
@@ -27,7 +27,7 @@ CaseNode list_of_numbers(const double* values, size_t size) {
 std::string format_list(const double* values, size_t size) {
   std::vector<std::string> texts;
   for (size_t i = 0; i < size; ++i) texts.push_back(format_number(values[i]));
-  return fmt::format("[{}]", joined(texts));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
 }  // namespace
@@ -232,7 +232,7 @@ void Section::numbers(const std::string& key, std::vector<double>& values, const
 }
 
 void Section::texts(const std::string& key, std::vector<std::string>& values, const std::string& meaning) {
-  document(key, "texts", {}, fmt::format("[{}]", joined(values)), meaning);
+  document(key, "texts", {}, fmt::format("[{}]", fmt::join(values, ", ")), meaning);
   if (const CaseNode* node = look_up(key)) {
     if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of names, [a, b]");
     values.clear();
@@ -267,20 +267,19 @@ void Section::quantity(double& value, const std::vector<UnitName>& names) {
 int Section::choose(const std::string& key, const std::vector<std::string>& names, int default_index,
                     const std::string& meaning, const std::string& advice) {
   const bool required = default_index < 0;
-  document(key, joined(names), {}, required ? "required" : names[static_cast<size_t>(default_index)],
-           meaning);
+  const std::string choices = fmt::format("{}", fmt::join(names, ", "));
+  document(key, choices, {}, required ? "required" : names[static_cast<size_t>(default_index)], meaning);
   int chosen = default_index;
   if (const CaseNode* node = look_up_scalar(key)) {
     const auto found = std::find(names.begin(), names.end(), node->text);
     if (found == names.end()) {
       const std::string near = nearest_name(node->text, names);
       fail(key, *node,
-           (near.empty() ? "must" : fmt::format("did you mean {}? It must", near)) + " be one of " +
-               joined(names));
+           (near.empty() ? "must" : fmt::format("did you mean {}? It must", near)) + " be one of " + choices);
     }
     chosen = static_cast<int>(found - names.begin());
   } else if (required) {
-    require(key, advice.empty() ? "; give one of " + joined(names) : "; " + advice);
+    require(key, advice.empty() ? "; give one of " + choices : "; " + advice);
   }
   if (chosen >= 0) record(key, names[static_cast<size_t>(chosen)]);
   return chosen;

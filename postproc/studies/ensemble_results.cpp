@@ -18,13 +18,6 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Column of a table of members that has it.
-size_t member_column(const Table& members, const std::string& key) {
-  size_t column = 0;
-  while (members.columns[column].key != key) ++column;
-  return column;
-}
-
 std::vector<double> column_of_numbers(const Table& table, size_t column) {
   std::vector<double> values;
   for (const auto& row : table.rows) {
@@ -215,7 +208,7 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
       ensemble.name, &ensemble, sweep_table(ensemble.samples.keys, ensemble.runs, runs_folder), {}};
   out.members.name = ensemble.name;
   out.members.title = "The members of the ensemble";
-  const size_t status = member_column(out.members, "status");
+  const size_t status = out.members.column_named("status");
   for (const auto& row : out.members.rows) {
     const std::string ending = to_display(row[status]);
     out.falls.push_back(stands(ending) ? 0 : falls(ending) ? 1 : -1);
@@ -287,7 +280,7 @@ Table inputs_table(const EnsembleResults& ensemble) {
                {"rank_correlation", "", "Rank correlation"},
                {"first_order_index", "", "First-order Sobol index"},
                {"noise", "", "Noise: two standard errors of the index of an input without influence"}};
-  const size_t status = member_column(ensemble.members, "status");
+  const size_t status = ensemble.members.column_named("status");
   for (size_t input = 1; input < status; ++input) {
     if (ensemble.members.columns[input].key.ends_with("seed")) continue;  // their order means nothing
     const std::vector<double> x = column_of_numbers(ensemble.members, input);
@@ -312,7 +305,7 @@ Table ends_table(const EnsembleResults& ensemble) {
   constexpr size_t kEach = 3;
   Table t{ensemble.name + "_ends", "Members at the ends", {}, {}};
   t.columns = {{"why", "", "Why"}, {"value", "", "Value"}};
-  const size_t status = member_column(ensemble.members, "status");
+  const size_t status = ensemble.members.column_named("status");
   for (size_t k = 0; k <= status; ++k) t.columns.push_back(ensemble.members.columns[k]);
   const auto add = [&](const std::string& why, const Table::Cell& value, size_t member) {
     std::vector<Table::Cell> row = {why, value};

@@ -1,6 +1,5 @@
 #include "postproc/studies/saltelli.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace cupola {

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/first_screen.hpp"
@@ -28,14 +27,6 @@ KeyNumber answer_of(RunFiles& run, const std::string& key) {
   return {run.answer(key + ".name"), run.answer(key + ".value"), run.answer(key + ".detail")};
 }
 
-std::optional<double> number_if_any(RunFiles& run, const std::string& key) {
-  try {
-    return run.number(key);
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-
 struct Margin {
   std::string run;
   KeyNumber answer;
@@ -48,7 +39,7 @@ std::vector<Margin> sorted_margins(const std::vector<std::string>& names, RunCac
   for (const std::string& name : names) {
     if (!runs.finished(name) || runs.run(name).status() == "unconverged") continue;
     RunFiles& run = runs.run(name);
-    margins.push_back({name, answer_of(run, "margin"), number_if_any(run, "post.margin_factor")});
+    margins.push_back({name, answer_of(run, "margin"), run.number_if_any("post.margin_factor")});
   }
   std::ranges::stable_sort(margins, {}, [](const Margin& margin) {
     return margin.factor.value_or(std::numeric_limits<double>::infinity());
@@ -65,7 +56,7 @@ std::optional<KeyNumber> worst_cause(const std::vector<std::string>& names, RunC
     if (!runs.finished(name)) continue;
     ++finished;
     standing += runs.run(name).answer("verdict.stands") == "yes";
-    const double crack = number_if_any(runs.run(name), "post.widest_crack_m").value_or(0.0);
+    const double crack = runs.run(name).number_if_any("post.widest_crack_m").value_or(0.0);
     if (crack > widest) widest = crack, worst = short_name(name);
   }
   if (finished == 0) return std::nullopt;

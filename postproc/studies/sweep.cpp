@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/base/error.hpp"
 #include "assembly/files/markup.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/ending.hpp"
@@ -18,12 +17,6 @@
 
 namespace cupola {
 namespace {
-
-size_t column_named(const Table& table, const std::string& key) {
-  const auto found = std::ranges::find(table.columns, key, &Table::Column::key);
-  CUPOLA_ASSERT(found != table.columns.end());
-  return static_cast<size_t>(found - table.columns.begin());
-}
 
 /// The texts of a column, from the top; empty ones where it has no value.
 std::vector<std::string> texts_of(const Table& table, const std::string& key) {
@@ -70,7 +63,7 @@ std::optional<size_t> row_at_the_end(const Table& table, size_t column, bool lea
 std::string settings_of(const std::vector<std::string>& keys, const Table& table, size_t row) {
   std::vector<std::string> settings;
   for (const std::string& key : keys)
-    settings.push_back(fmt::format("{} = {}", key, to_display(table.rows[row][column_named(table, key)])));
+    settings.push_back(fmt::format("{} = {}", key, to_display(table.rows[row][table.column_named(key)])));
   return fmt::format("{} ({})", fmt::join(settings, ", "), to_display(table.rows[row][0]));
 }
 
@@ -94,8 +87,7 @@ std::vector<size_t> fallen_rows(const Table& table) {
 }  // namespace
 
 std::string governing_member(const std::vector<std::string>& keys, const Table& table, bool more_is_safer) {
-  const size_t critical = column_named(table, "critical_value"),
-               margin = column_named(table, "margin_factor");
+  const size_t critical = table.column_named("critical_value"), margin = table.column_named("margin_factor");
   const size_t by = row_at_the_end(table, margin, true) ? margin : critical;
   const bool least_governs = by == margin || more_is_safer;
   const auto worst = row_at_the_end(table, by, least_governs),

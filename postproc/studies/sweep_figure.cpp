@@ -5,11 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 
-#include "assembly/base/error.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/status.hpp"
 #include "postproc/figures/plot_style.hpp"
@@ -25,13 +23,6 @@ constexpr std::array kColours{kBlue, kOrange, kGreen, kPurple, kSky};
 double number_of(const Table::Cell& cell) {
   const double* value = std::get_if<double>(&cell);
   return value ? *value : std::numeric_limits<double>::quiet_NaN();
-}
-
-size_t column_of(const Table& table, const std::string& key) {
-  const auto found = std::find_if(table.columns.begin(), table.columns.end(),
-                                  [&](const Table::Column& column) { return column.key == key; });
-  CUPOLA_ASSERT(found != table.columns.end());
-  return static_cast<size_t>(found - table.columns.begin());
 }
 
 /// True if no number of the column is negative; its axis then starts at zero.
@@ -114,7 +105,7 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       "reached no verdict (see the table).";
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
-  const size_t status = column_of(table, "status");
+  const size_t status = table.column_named("status");
   std::vector<size_t> columns = varying_columns({&table});
   if (columns.size() > kMostPanels) columns.resize(kMostPanels);
   if (columns.empty()) return f;

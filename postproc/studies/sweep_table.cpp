@@ -21,24 +21,19 @@ constexpr const char* kMissing = "missing";
 
 /// A number of results/summary.json or post/summary.json; empty if the run does not have it.
 Table::Cell number_or_empty(RunFiles& run, const std::string& key) {
-  try {
-    return run.number(key);
-  } catch (const InputError&) {
-    return std::string();
-  }
+  const std::optional<double> number = run.number_if_any(key);
+  return number ? Table::Cell(*number) : Table::Cell(std::string());
 }
 
 /// A result of the solver or of the postprocessor. The latter lack it if the member was not evaluated.
 Table::Cell result_of(RunFiles& run, const std::string& key) {
-  if (key == "margin_factor" || key == "widest_crack_m" || key == "thrust_N") {
-    try {
-      if (key != "thrust_N") return run.number("post." + key);
-      return run.number("post.thrust_over_weight") * run.number("post.weight_N");
-    } catch (const InputError&) {
-      return std::string();
-    }
+  if (key == "thrust_N") {
+    const auto share = run.number_if_any("post.thrust_over_weight"),
+               weight = run.number_if_any("post.weight_N");
+    return share && weight ? Table::Cell(*share * *weight) : Table::Cell(std::string());
   }
-  return number_or_empty(run, "results." + key);
+  const bool of_post = key == "margin_factor" || key == "widest_crack_m";
+  return number_or_empty(run, (of_post ? "post." : "results.") + key);
 }
 
 /// The unit of the critical values; "" if they have none, or no member has one.
@@ -55,7 +50,7 @@ std::string unit_of_limit(const std::vector<StudyRun>& members, const std::strin
 /// How a run ended: its status, or that a motion has not come to rest, which is no verdict.
 std::string ending_of(RunFiles& run) {
   const std::string status = run.status();
-  const bool in_time = std::holds_alternative<double>(number_or_empty(run, "results.max_speed_m_per_s"));
+  const bool in_time = run.number_if_any("results.max_speed_m_per_s").has_value();
   return in_time && status == to_string(Status::moving) ? "not at rest" : status;
 }
 

@@ -3,17 +3,12 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/base/counted.hpp"
 
 namespace cupola {
 namespace {
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
 
 /// "NAME (2 s, 1.0e-03)": name, time and error.
 std::string with_cost(const TradeoffRow& row) {
@@ -75,7 +70,8 @@ std::string knob_text(const std::vector<TradeoffRow>& all, const std::string& kn
         "The largest error of a single joint is {:.1e}, in {}; the thrust lines of this run shift by up to "
         "{:.1e} of the thickness.",
         worst.errors.wrench_worst, worst.point.name, worst.errors.thrust_line);
-  if (!unreached.empty()) text += " Requested accuracy not reached: " + listed(unreached) + ".";
+  if (!unreached.empty())
+    text += fmt::format(" Requested accuracy not reached: {}.", fmt::join(unreached, ", "));
   return text;
 }
 
@@ -85,7 +81,7 @@ std::vector<std::string> tradeoff_text(const std::vector<TradeoffRow>& rows) {
   std::vector<std::string> paragraphs, missing;
   for (const TradeoffRow& row : rows)
     if (!row.finished()) missing.push_back(row.point.name);
-  if (!missing.empty()) paragraphs.push_back("Not run: " + listed(missing) + ".");
+  if (!missing.empty()) paragraphs.push_back(fmt::format("Not run: {}.", fmt::join(missing, ", ")));
   for (const TradeoffRow& row : rows)
     if (row.point.is_reference() && row.finished())
       paragraphs.push_back(

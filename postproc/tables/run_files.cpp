@@ -135,6 +135,14 @@ double RunFiles::number(const std::string& key) {
   return value->get<double>();
 }
 
+std::optional<double> RunFiles::number_if_any(const std::string& key) {
+  try {
+    return number(key);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 const CsvFile& RunFiles::table(const std::string& name) {
   const auto found = tables_.find(name);
   if (found != tables_.end()) return found->second;

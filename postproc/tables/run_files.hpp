@@ -28,6 +28,8 @@ class RunFiles {
   /// in KEY descend into maps and, by index, into lists. Booleans count as 0 and 1. InputError if there is no
   /// such number.
   double number(const std::string& key);
+  std::optional<double> number_if_any(
+      const std::string& key);                    ///< the same; nothing if there is no such number
   const CsvFile& table(const std::string& name);  ///< post/NAME.csv; for the name results/NAME that file
   /// Sorted names of the tables whose name begins with `start`.
   std::vector<std::string> table_names(const std::string& start) const;

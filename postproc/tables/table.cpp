@@ -8,6 +8,7 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/files/csv_text.hpp"
 
 namespace cupola {
@@ -46,6 +47,12 @@ std::string latex_text(const std::string& text) {
 }
 
 }  // namespace
+
+size_t Table::column_named(const std::string& key) const {
+  const auto found = std::ranges::find(columns, key, &Column::key);
+  CUPOLA_ASSERT(found != columns.end());
+  return static_cast<size_t>(found - columns.begin());
+}
 
 std::string to_csv(const Table& table) {
   std::string text;

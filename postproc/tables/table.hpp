@@ -23,6 +23,7 @@ struct Table {
   size_t rows_elsewhere = 0;  ///< number of further rows, which only the CSV file holds
 
   size_t num_rows() const { return rows.size() + rows_elsewhere; }
+  size_t column_named(const std::string& key) const;  ///< the table must have it
 };
 
 /// Header line of keys, then the rows. Numbers have all digits; undefined ones (NaN) are empty cells. Texts
