@@ -2,24 +2,91 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/geometry.hpp"
+#include "assembly/case/imported_blocks.hpp"
 #include "assembly/case/keys_without_effect.hpp"
 #include "assembly/case/plausibility.hpp"
+#include "assembly/files/assembly_file.hpp"
 #include "assembly/model/applied_loads.hpp"
+#include "assembly/model/assembly.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/block_region.hpp"
+#include "assembly/model/random_field.hpp"
 #include "generators/chains.hpp"
-#include "generators/importer/assembly_import.hpp"
 #include "generators/importer/import_supports.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/surface/make_surface.hpp"
-#include "generators/varied_density.hpp"
 
 namespace cupola {
 namespace {
+
+/// True for an assembly of Cupola, .vtu, such as `cupola-post export` writes of the end of a path.
+bool is_assembly_file(const ImportedBlocks& source) {
+  return source.path.ends_with(".vtu");
+}
+
+/// Its blocks with their courses, supports, densities and ties. Throws InputError for keys that complete the
+/// files of other programs.
+Assembly import_assembly(const ImportedBlocks& source) {
+  const ImportedBlocks plain;
+  const std::pair<const char*, bool> given[] = {
+      {"format", source.format != plain.format},
+      {"metres_per_unit", source.metres_per_unit.has_value()},
+      {"up", source.up != plain.up},
+      {"supports", !source.supports.empty()},
+      {"flagged_supports", source.flagged_supports != plain.flagged_supports},
+      {"fixed_below", source.fixed_below.has_value()},
+      {"fixed_by", source.fixed_by != plain.fixed_by},
+      {"axis", source.axis.has_value()},
+      {"densities", !source.densities.empty()},
+      {"springs", !source.springs.empty()},
+      {"rods", !source.rods.empty()},
+      {"facet_angle", source.facet_angle.has_value()},
+      {"snap", source.snap.has_value()}};
+  for (const auto& [key, is_given] : given)
+    if (is_given)
+      throw InputError(fmt::format(
+          "geometry.import.{}: has no effect on {}, an assembly of Cupola with its supports, densities and "
+          "ties; remove it",
+          key, source.path));
+  return read_assembly(source.path);
+}
+
+/// Multiplies density, mass and inertia of each free block by the mean of a random function of place over the
+/// block, by its values at the centroids of tetrahedra. Nothing if the density does not vary.
+void vary_density(const Imperfections& imperfections, Assembly* assembly) {
+  if (imperfections.density == 0.0) return;
+  const RandomField field(imperfections.seed, "density", *imperfections.correlation_length,
+                          imperfections.density);
+  std::vector<double> volume(assembly->blocks.size(), 0.0), sum(assembly->blocks.size(), 0.0);
+  for (const Part& part : assembly->parts) {
+    const Vec3& apex = assembly->vertices[assembly->face(part.face_start)[0]];
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const auto ids = assembly->face(f);
+      const Vec3& a = assembly->vertices[ids[0]];
+      for (size_t i = 2; i < ids.size(); ++i) {
+        const Vec3 &b = assembly->vertices[ids[i - 1]], &c = assembly->vertices[ids[i]];
+        const double six = (a - apex).dot((b - apex).cross(c - apex));
+        if (!(six > 0.0)) continue;  // faces through the apex
+        volume[part.block] += six;
+        sum[part.block] += six * field.at(0.25 * (apex + a + b + c));
+      }
+    }
+  }
+  for (size_t i = 0; i < assembly->blocks.size(); ++i) {
+    Block& block = assembly->blocks[i];
+    if (block.fixed) continue;
+    const double factor = sum[i] / volume[i];
+    block.density *= factor;
+    block.mass *= factor;
+    block.inertia *= factor;
+  }
+}
 
 CutOptions cut_options(const Case& input) {
   CutOptions options;

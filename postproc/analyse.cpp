@@ -15,7 +15,6 @@
 #include "assembly/program/warnings.hpp"
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
-#include "postproc/pictures/paraview.hpp"
 #include "postproc/pictures/pictures.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/load_path.hpp"

@@ -1,13 +1,25 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
-#include "assembly/base/growth.hpp"
 #include "assembly/model/results.hpp"
 
 namespace cupola {
+
+/// Paces writing again what grows: it is due when it has grown by a hundredth since it was written, so that
+/// the sum of all writing is proportional to its final size.
+class Growth {
+ public:
+  bool is_due(std::size_t size) const { return size < written_ || 100 * (size - written_) >= size; }
+  bool is_current(std::size_t size) const { return size == written_; }
+  void written(std::size_t size) { written_ = size; }
+
+ private:
+  std::size_t written_ = 0;
+};
 
 /// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp, with ties
 /// ties_NNNN.vtp, and their .pvd collections. These, and tables that grow with the frames, are written again

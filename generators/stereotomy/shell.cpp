@@ -11,7 +11,6 @@
 #include "generators/bond/wythe_bond.hpp"
 #include "generators/stereotomy/opening_places.hpp"
 #include "generators/stereotomy/placement.hpp"
-#include "generators/surface/faceted.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/window.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -129,6 +130,23 @@ double extrapolated_shell_volume(const SurfaceMap& surface) {
   const double first = middle + (middle - coarse) / 3.0;
   const double second = fine + (fine - middle) / 3.0;
   return second + (second - first) / 15.0;
+}
+
+SurfaceMap faceted(SurfaceMap surface, const std::vector<double>& ends) {
+  CUPOLA_ASSERT(surface.closed && ends.size() > 3);
+  if (!surface.shell_volume) surface.shell_volume = extrapolated_shell_volume(surface);
+  surface.at = [ends, extent = surface.extent, at = surface.at](double bed, double abscissa,
+                                                                double depth) -> Vec3 {
+    const double azimuth = abscissa - extent * std::floor((abscissa - ends.front()) / extent);
+    const auto above = std::upper_bound(ends.begin() + 1, ends.end() - 1, azimuth);
+    const Vec3 left = at(bed, *(above - 1), depth), right = at(bed, *above, depth);
+    const double c = std::cos(azimuth), s = std::sin(azimuth);
+    const double from_left = c * left.y() - s * left.x(), from_right = c * right.y() - s * right.x();
+    return left + from_left / (from_left - from_right) * (right - left);
+  };
+  surface.flat_slices = surface.flat_skins;
+  surface.facets = ends;
+  return surface;
 }
 
 }  // namespace cupola

@@ -11,7 +11,7 @@
 #include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/cracks.hpp"
 #include "postproc/mechanics/cuts.hpp"
-#include "postproc/mechanics/mechanism_motion.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/mechanics/member_sums.hpp"
 #include "postproc/mechanics/plane_cut.hpp"
 #include "postproc/mechanics/poses.hpp"

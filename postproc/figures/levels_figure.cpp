@@ -1,15 +1,34 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
-#include "postproc/figures/projection.hpp"
 #include "postproc/tables/mesh_output.hpp"
 
 namespace cupola {
 namespace {
+
+/// A parallel projection: the unit vectors that point right and up on the page, and towards the reader.
+struct Projection {
+  Vec3 right, up, towards;
+  std::vector<double> row(const Vec3& x) const { return {right.dot(x), up.dot(x)}; }
+};
+
+/// A vault about the z axis and imported blocks are seen obliquely from above, arches and walls in elevation.
+Projection projection_of(const Evaluation& e) {
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  if (!sheets.empty() && sheets.back().thrust_lines != Sheet::ThrustLines::by_azimuth)
+    return {Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
+  const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a and from above
+  const Vec3 right(-std::sin(a), std::cos(a), 0.0);
+  const Vec3 up(-std::sin(slant) * std::cos(a), -std::sin(slant) * std::sin(a), std::cos(slant));
+  return {right, up, right.cross(up)};
+}
 
 using Rows = std::vector<std::vector<double>>;
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "postproc/mechanics/mechanism_motion.hpp"
-
 namespace cupola {
 
 std::vector<JointSpeeds> joint_speeds(const Assembly& assembly, const Frame& frame,

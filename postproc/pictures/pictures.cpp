@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "assembly/files/atomic_file.hpp"
+#include "postproc/pictures/paraview_text.hpp"
 #include "postproc/pictures/private_display.hpp"
 #include "postproc/pictures/views.hpp"
 
@@ -62,6 +63,10 @@ std::string draw_pictures(const Evaluation& e, const std::vector<MovedBlocks>& m
   }
   return fmt::format("the pictures are incomplete: see {} (Debian's libgl1-mesa-dri draws without a screen)",
                      log);
+}
+
+void write_paraview_script(const std::string& folder) {
+  write_text_atomically((std::filesystem::path(folder) / "open_in_paraview.py").string(), kOpenScript);
 }
 
 }  // namespace cupola

@@ -21,4 +21,7 @@ struct MovedBlocks {
 std::string draw_pictures(const Evaluation& evaluation, const std::vector<MovedBlocks>& motion,
                           const std::string& folder);
 
+/// Writes open_in_paraview.py into the folder of a run, which opens the run in ParaView.
+void write_paraview_script(const std::string& folder);
+
 }  // namespace cupola

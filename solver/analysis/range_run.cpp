@@ -1,6 +1,7 @@
 #include "solver/analysis/range_run.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -10,6 +11,12 @@
 
 namespace cupola {
 namespace {
+
+/// The contact that tells a joint from others: the first one in its normal force. None for other objectives.
+std::optional<int> contact_of(const RangeObjective& objective) {
+  if (!objective.joint || objective.over || objective.mean_of_images) return std::nullopt;
+  return objective.value.contacts.begin()->first;
+}
 
 std::string text_of(const RangeEnd& end) {
   return end.value ? fmt::format("{:.10g}", *end.value) : to_string(end.outcome);
@@ -112,6 +119,36 @@ bool RangeRun::run(std::vector<ForceRange>* ranges) {
   for (const RangeObjective& objective : objectives_)
     ranges->push_back({objective.quantity, objective.unit, {}, {}, {}, objective.joint});
   return run(-1.0, all, ranges) && run(1.0, least_to_solve(ranges), ranges);
+}
+
+RangeImages::RangeImages(const RigidScene& scene, const std::vector<RangeObjective>& objectives)
+    : scene_(scene), objectives_(objectives) {
+  std::map<std::pair<int, int>, int> of_joint;
+  for (int i = 0; i < static_cast<int>(objectives.size()); ++i) {
+    images_.push_back({i});
+    if (contact_of(objectives[i])) of_joint.emplace(*objectives[i].joint, i);
+  }
+  if (of_joint.size() < 2) return;
+  symmetries_ = find_symmetries(scene.model, scene.start, scene.contacts);
+  for (int i = 0; i < static_cast<int>(objectives.size()); ++i) {
+    const std::optional<int> contact = contact_of(objectives[i]);
+    if (!contact || images_[i].symmetry >= 0) continue;
+    for (int k = 0; k < static_cast<int>(symmetries_.size()); ++k) {
+      const Contact& image = scene.contacts.points[symmetries_[k].contacts[*contact]];
+      const auto found = of_joint.find(std::minmax(image.block_a, image.block_b));
+      if (found == of_joint.end() || found->second <= i || images_[found->second].symmetry >= 0) continue;
+      images_[found->second] = {i, k};
+      images_[i].of_others = true;
+    }
+  }
+}
+
+std::optional<RangeSolution> RangeImages::end(int objective, double towards,
+                                              const RangeSolution& of_original) const {
+  const ModelSymmetry& symmetry = symmetries_[images_[objective].symmetry];
+  return range_end_of(scene_, objectives_[objective], towards,
+                      symmetry.forces(scene_.problem.contacts, of_original.gamma),
+                      symmetry.velocities(of_original.v));
 }
 
 }  // namespace cupola

@@ -1,11 +1,11 @@
 #include "solver/collision/collision_model.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include <fcl/math/bv/OBB.h>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
@@ -187,6 +187,16 @@ std::vector<Pose> initial_poses(const Assembly& assembly) {
   for (const Block& block : assembly.blocks)
     poses.push_back({block.centroid, Eigen::Quaterniond::Identity()});
   return poses;
+}
+
+Eigen::AlignedBox3d bounding_box(const OrientedBox& box) {
+  const Vec3 half = box.axes.cwiseAbs() * box.half_sizes;
+  return {box.center - half, box.center + half};
+}
+
+bool overlap(const OrientedBox& a, const OrientedBox& b) {
+  return !fcl::obbDisjoint<double>(a.axes.transpose() * b.axes, a.axes.transpose() * (b.center - a.center),
+                                   a.half_sizes, b.half_sizes);
 }
 
 }  // namespace cupola

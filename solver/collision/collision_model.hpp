@@ -3,11 +3,25 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "assembly/model/assembly.hpp"
 #include "solver/collision/contact_set.hpp"
-#include "solver/collision/oriented_box.hpp"
 
 namespace cupola {
+
+/// Box with arbitrary axes. It encloses a slender, inclined brick much more tightly than an axis-aligned box.
+struct OrientedBox {
+  Mat3 axes = Mat3::Identity();    ///< columns: unit vectors along its edges
+  Vec3 center = Vec3::Zero();      ///< m
+  Vec3 half_sizes = Vec3::Zero();  ///< m, along the axes
+};
+
+/// Smallest axis-aligned box that contains it.
+Eigen::AlignedBox3d bounding_box(const OrientedBox& box);
+
+/// True if two boxes overlap or are so close that rounding leaves the answer open (FCL).
+bool overlap(const OrientedBox& a, const OrientedBox& b);
 
 /// Multithreaded loops over blocks: chunk size, small enough to balance the load, and cost per block in
 /// floating-point operations. Finding the joints of one block takes some tens of microseconds.

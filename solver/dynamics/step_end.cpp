@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <cmath>
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/joint_damage.hpp"
-#include "solver/dynamics/known_motion.hpp"
+#include "solver/dynamics/time_step.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {

@@ -8,7 +8,6 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/joint_damage.hpp"
-#include "solver/dynamics/known_motion.hpp"
 #include "solver/runtime/threads.hpp"
 
 namespace cupola {

@@ -8,7 +8,7 @@
 #include "solver/analysis/construction/solved_stage.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/record/record_archive.hpp"
-#include "solver/dynamics/memory_archive.hpp"
+#include "solver/dynamics/state_archive.hpp"
 
 namespace cupola {
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "postproc/mechanics/mechanism_motion.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/gives_way.hpp"
 #include "postproc/report/loads_text.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "postproc/mechanics/mechanism_motion.hpp"
+#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/worst_joints.hpp"
