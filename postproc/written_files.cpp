@@ -1,9 +1,7 @@
 #include "postproc/written_files.hpp"
 
-#include <set>
 #include <sstream>
 
-#include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 
 namespace cupola {

@@ -1,7 +1,6 @@
 #include "solver/explain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "assembly/case/ensemble.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>

@@ -1,7 +1,6 @@
 #include "assembly/files/seen_cracks.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include <fmt/format.h>

@@ -2,7 +2,6 @@
 
 #include <concepts>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

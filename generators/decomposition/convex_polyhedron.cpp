@@ -1,7 +1,6 @@
 #include "generators/decomposition/convex_polyhedron.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 

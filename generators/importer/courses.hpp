@@ -3,7 +3,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "assembly/model/assembly.hpp"
 #include "generators/stereotomy/model_checks.hpp"

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <map>
-#include <span>
 #include <vector>
 
 #include "assembly/model/assembly.hpp"

@@ -9,7 +9,6 @@
 #include <set>
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/joint_rule.hpp"

@@ -1,6 +1,5 @@
 #include "generators/stereotomy/cut_planes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

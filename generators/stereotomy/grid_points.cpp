@@ -1,6 +1,5 @@
 #include "generators/stereotomy/grid_points.hpp"
 
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>

@@ -1,8 +1,6 @@
 #include "postproc/evaluation/evaluation.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <set>
 
 #include <Eigen/Geometry>

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "postproc/figures/plot_style.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/tables/range_values.hpp"
 
 namespace cupola {

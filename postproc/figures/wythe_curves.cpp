@@ -1,6 +1,5 @@
 #include "postproc/figures/wythe_curves.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "assembly/model/assembly.hpp"
 
 namespace cupola {

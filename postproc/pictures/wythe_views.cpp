@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

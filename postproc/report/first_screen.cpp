@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/html.hpp"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "postproc/figures/plot_style.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 
 namespace cupola {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "postproc/figures/plot_style.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/worst_joints.hpp"
 
 namespace cupola {

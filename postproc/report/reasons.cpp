@@ -10,7 +10,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "postproc/evaluation/margin.hpp"
-#include "postproc/figures/plot_style.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/gives_way.hpp"
 #include "postproc/report/loads_text.hpp"

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <limits>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
-#include "postproc/figures/plot_style.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/report/motion.hpp"

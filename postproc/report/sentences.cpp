@@ -1,7 +1,6 @@
 // The sentences of the report: verdict, solution quality, findings of an equilibrium.
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

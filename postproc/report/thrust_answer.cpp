@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/evaluation/thrust.hpp"
-#include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/tables/range_values.hpp"

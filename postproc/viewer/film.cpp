@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 
 #include "assembly/model/laying_course.hpp"
 

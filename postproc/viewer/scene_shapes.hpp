@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/viewer/packed_arrays.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/case/case_times.hpp"

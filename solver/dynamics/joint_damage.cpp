@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/base/error.hpp"
-
 namespace cupola {
 namespace {
 

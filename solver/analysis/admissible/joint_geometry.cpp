@@ -1,7 +1,5 @@
 #include "solver/analysis/admissible/joint_geometry.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"

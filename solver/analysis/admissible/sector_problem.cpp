@@ -1,7 +1,5 @@
 #include "solver/analysis/admissible/sector_problem.hpp"
 
-#include <algorithm>
-
 #include "solver/analysis/statics/cyclic_reduction.hpp"
 
 namespace cupola {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "solver/analysis/statics/limit_search.hpp"
 
 namespace cupola {

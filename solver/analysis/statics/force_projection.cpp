@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/base/error.hpp"
 #include "solver/conic/exact_equilibrium.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/duality_gap.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "assembly/model/accuracy.hpp"
-#include "assembly/model/choices.hpp"
 #include "solver/analysis/statics/cyclic_symmetry.hpp"
 #include "solver/collision/contact_set.hpp"
 #include "solver/contact/problem/contact_problem.hpp"

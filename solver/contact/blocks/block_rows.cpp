@@ -1,7 +1,6 @@
 #include "solver/contact/blocks/block_rows.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <numeric>
 
 #include "assembly/base/error.hpp"
