@@ -11,6 +11,7 @@
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/status.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/studies/sweep.hpp"
 
 namespace cupola {
 namespace {

@@ -12,6 +12,7 @@
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/mechanism.hpp"
+#include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/limit_search.hpp"
