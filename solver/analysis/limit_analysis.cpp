@@ -147,20 +147,24 @@ Bracket LimitRun::search_value() {
                 });
 }
 
-/// Of the factor of spread. Sliding joints remember the way, so that the result depends on the steps: they
-/// follow the blocks, because the bracket is chosen.
+/// The longest step of the factor of `spread`. Where joints slide, the state at a factor depends on the steps
+/// before it. The size of the blocks therefore limits them, and not only the bracket, which the user may
+/// widen.
 double longest_step(const Model& model, double low, double high) {
   constexpr int kFewest = 40;
+  // Chosen: with 0.01 the limits of an arch and of a flying buttress are within 0.4 % of those of finer paths,
+  // with 0.02 within 1 %.
   constexpr double kShare = 0.01;  // of the smallest block, by which supports move in a step
+  const std::vector<Block>& blocks = model.assembly->blocks;
   const double step = (high - low) / kFewest;
   std::vector<Pose> from = state_at_rest(model).poses, to = from;
   place_supports(*model.assembly, model.support_motions, low, &from);
   place_supports(*model.assembly, model.support_motions, low + step, &to);
   double moved = 0.0;
-  for (size_t i = 0; i < from.size(); ++i)
-    moved =
-        std::max(moved, (to[i].p_WB - from[i].p_WB).norm() + from[i].q_WB.angularDistance(to[i].q_WB) *
-                                                                 std::cbrt(model.assembly->blocks[i].volume));
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const double turned = from[i].q_WB.angularDistance(to[i].q_WB) * std::cbrt(blocks[i].volume);
+    moved = std::max(moved, (to[i].p_WB - from[i].p_WB).norm() + turned);
+  }
   return step * std::min(1.0, kShare * smallest_block_size(*model.assembly) / moved);
 }
 

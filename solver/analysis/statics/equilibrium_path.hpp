@@ -72,9 +72,10 @@ class EquilibriumPath {
   int solves_ = 0;
 };
 
+/// The part of a path to follow, in the unit of its time: a spread factor, for example.
 struct PathRange {
   double low = 0.0, high = 1.0;
-  double longest_step = 1.0;
+  double longest_step = 1.0;  ///< > 0
 };
 
 /// Follows a path from `low`, at which the structure must stand, to `high`. The step is halved where no
