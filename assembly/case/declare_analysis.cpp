@@ -93,10 +93,10 @@ void declare_path(Section& s, LoadPath& path) {
       "length", path.length, {.unit = "m", .above = 0}, "none: equal steps of time",
       "displacement of the control up to which the path is followed in equal steps; the time of each "
       "equilibrium is then found between 0 and end, and falls beyond a largest load");
-  s.choice(
-      "geometry", path.geometry,
-      "geometry in which each equilibrium holds: that at the start of its step, or that at its end, found "
-      "by further solves");
+  s.choice("geometry", path.geometry,
+           "geometry in which each equilibrium holds: that at the start of its step unless it moves a block "
+           "by more "
+           "than a hundredth of the smallest, or always that at its end, found by further solves");
   s.rule(path.geometry == PathGeometry::start || !path.length, "geometry", "end excludes length");
   s.optional_section("control", path.control,
                      "block whose displacement and force path.csv tabulates; none: the support that moves "

@@ -109,13 +109,26 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
   return solution;
 }
 
+namespace {
+
+/// Of the smallest block, by which blocks move in a step. The geometry to which a longer one leads can be so
+/// far off that nothing balances the loads there.
+constexpr double kFar = 0.01;
+
+double moved(const StaticSolution& solution) {
+  return largest_speed(solution.step_solution.v) * solution.h;
+}
+
+}  // namespace
+
 StaticSolution EquilibriumPath::advance_from(double guess) {
   const LoadedState last = loaded_;
   solves_ = 0;
   dissipated_ = 0.0;
   StaticSolution solution = solve_from(last, guess - last.state.time);
-  if (geometry_ == PathGeometry::end && solution.outcome == StaticOutcome::equilibrium)
-    solution = correct(std::move(solution));
+  const bool settles = geometry_ == PathGeometry::end ||
+                       (!options_.control && moved(solution) > kFar * smallest_block_size(*model_.assembly));
+  if (settles && solution.outcome == StaticOutcome::equilibrium) solution = correct(std::move(solution));
   if (solution.outcome != StaticOutcome::equilibrium) loaded_ = last;
   return solution;
 }
@@ -123,7 +136,6 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
 StaticSolution EquilibriumPath::correct(StaticSolution solution) {
   constexpr double kSettled = 1e-8;  // of the smallest block
   constexpr int kMost = 50;
-  const auto moved = [](const StaticSolution& s) { return largest_speed(s.step_solution.v) * s.h; };
   const double tolerance = kSettled * smallest_block_size(*model_.assembly), by_step = moved(solution);
   for (int pass = 0; moved(solution) > tolerance; ++pass) {
     if (pass == kMost || (pass > 0 && moved(solution) > by_step)) {

@@ -14,10 +14,10 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
 /// damage.
 ///
 /// Each solve balances the forces in the geometry in which it starts, so that an equilibrium is off by the
-/// displacement of its step. With PathGeometry::end more solves follow in each step, each from where the last
-/// one ended and at the same time, until one moves no block by more than 1e-8 of the smallest: forces and
-/// geometry then belong to each other. Where these solves move the blocks further than the step itself did,
-/// the structure does not stand.
+/// displacement of its step. With PathGeometry::end, and in steps by time that move a block by more than a
+/// hundredth of the smallest, more solves follow, each from where the last one ended and at the same time,
+/// until one moves no block by more than 1e-8 of the smallest: forces and geometry then belong to each other.
+/// Where these solves move the blocks further than the step itself did, the structure does not stand.
 class EquilibriumPath {
  public:
   EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options,
