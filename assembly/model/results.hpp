@@ -187,7 +187,7 @@ struct ForceRange {
 /// The smallest horizontal acceleration, over equally spaced directions, that makes a structure move under
 /// the associated law. Under Coulomb's law a smaller one may.
 struct Robustness {
-  int directions = 0;
+  int directions = 0;           ///< those that were decided
   double acceleration_g = 0.0;  ///< an admissible state exists at this value
   double moving_g = 0.0;        ///< a mechanism proves motion at this value
   double azimuth_deg = 0.0;     ///< direction of the acceleration of the blocks, from x towards y

@@ -51,8 +51,9 @@ void fields(Visitor&& visit, Is<WorstSteps> auto& w) {
 
 template <class Visitor>
 void fields(Visitor&& visit, Is<Robustness> auto& r) {
-  visit("directions", "", "number of directions tried", r.directions);
-  visit("acceleration_g", "g", "least horizontal acceleration with an admissible state", r.acceleration_g);
+  visit("directions", "", "number of directions decided", r.directions);
+  visit("acceleration_g", "g", "least horizontal acceleration with an admissible state; 0: any push moves it",
+        r.acceleration_g);
   visit("moving_g", "g", "the same with a mechanism", r.moving_g);
   visit("azimuth_deg", "degrees", "its direction, from x towards y", r.azimuth_deg);
 }

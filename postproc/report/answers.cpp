@@ -162,10 +162,14 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (e.summary.critical && e.summary.status != Status::unconverged) return critical_answer(e);
   if (const auto& robust = e.summary.robustness)
     return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
-            fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees", robust->directions,
-                        robust->azimuth_deg)};
-  if (e.scene.analysis.robustness > 0 && at_rest(e))
-    return {"Horizontal acceleration", "none found", last_clause(e.summary.message)};
+            robust->acceleration_g > 0.0
+                ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees",
+                              robust->directions, robust->azimuth_deg)
+                : fmt::format("any push towards {:.4g} degrees makes it move", robust->azimuth_deg)};
+  if (e.scene.analysis.robustness > 0 && at_rest(e)) {
+    const std::string clause = last_clause(e.summary.message);
+    return {"Horizontal acceleration", clause.starts_with("no horizontal") ? "no limit" : "unknown", clause};
+  }
   if (is_limit(e) && at_rest(e))
     return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)),
             stands(e.summary.status) ? lack_of_limit(e.summary.message) : "unknown",

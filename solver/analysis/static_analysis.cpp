@@ -16,6 +16,7 @@
 #include "solver/analysis/admissible/rigid_scene.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
 #include "solver/analysis/statics/model_symmetry.hpp"
 #include "solver/analysis/statics/static_parts.hpp"
 #include "solver/analysis/statics/static_record.hpp"
@@ -28,10 +29,10 @@
 namespace cupola {
 namespace {
 
-/// Bounds of the critical acceleration in one direction.
+/// The critical acceleration in one direction.
 struct DirectionLimit {
-  bool found = false;
-  double admissible = 0.0, moving = 0.0;
+  enum { undecided, none, found } outcome = undecided;
+  double admissible = 0.0, moving = 0.0;  ///< g, its bounds
 };
 
 DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double azimuth) {
@@ -42,20 +43,29 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
   const ConicProblem problem = with_multiplier(
       rest.problem, applied_forces(model, rest.start, rest.start.time) - rest.problem.load, -1.0);
   ConicSolution solution = solve_conic(problem);
-  if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded) return {};
+  if (solution.outcome == ConicOutcome::unbounded) return {DirectionLimit::none};
+  if (solution.outcome == ConicOutcome::infeasible) return {};
   // Rounding may stall a solve whose bounds are close.
   constexpr double kClose = 1e-4;
   const ConicBounds bounds =
       multiplier_bounds(problem, 0.1 * kClose * std::abs(solution.multipliers[0]), &solution);
-  if (!(bounds.relative_gap() <= kClose)) return {};
-  return {true, -bounds.upper, -bounds.lower};
+  // Bounds of zero are rounding, which has no small relative gap.
+  const bool zero = std::max(std::abs(bounds.lower), std::abs(bounds.upper)) <= kZeroLimit;
+  if (!zero && !(bounds.relative_gap() <= kClose)) return {};
+  if (-bounds.lower <= kZeroLimit) return {DirectionLimit::found, 0.0, kZeroLimit};  // it stands at rest
+  return {DirectionLimit::found, -bounds.upper, -bounds.lower};
 }
+
+/// The limits over `scene.analysis.robustness` directions.
+struct DirectionLimits {
+  int directions = 0, undecided = 0;
+  std::optional<Robustness> least = {};  ///< none if no direction has a limit
+};
 
 /// The least horizontal acceleration of all free blocks, over `scene.analysis.robustness` directions, for
 /// which a mechanism proves that no admissible state exists: one conic programme each, which maximises the
-/// multiplier of the loads that the acceleration adds. None if no direction has a limit or the structure has
-/// no admissible state at rest.
-std::optional<Robustness> find_robustness(const Case& scene, const Assembly& assembly) {
+/// multiplier of the loads that the acceleration adds.
+DirectionLimits find_robustness(const Case& scene, const Assembly& assembly) {
   constexpr double kWork = 1e12;  // of all directions: always worth all threads
   const int count = scene.analysis.robustness;
   // Time functions are frozen at their values at time 0, as in a limit analysis.
@@ -65,22 +75,38 @@ std::optional<Robustness> find_robustness(const Case& scene, const Assembly& ass
   const int different = count / std::gcd(count, num_equal_sectors(rest.model, rest.start, rest.contacts));
   std::vector<DirectionLimit> limits(static_cast<size_t>(different));
   share_loop(kWork, different, [&](int k) {
-    for (int image = k; image < count && !limits[k].found; image += different)
+    for (int image = k; image < count && limits[k].outcome == DirectionLimit::undecided; image += different)
       limits[k] = limit_towards(scene, rest, 2.0 * std::numbers::pi * image / count);
   });
+  DirectionLimits all{.directions = count};
+  for (const DirectionLimit& limit : limits)
+    if (limit.outcome == DirectionLimit::undecided) all.undecided += count / different;
   // Of directions that rounding does not distinguish, as by symmetry, the first counts.
-  std::optional<Robustness> least;
   for (int k = 0; k < different; ++k)
-    if (limits[k].found && (!least || limits[k].moving < least->acceleration_g))
-      least = Robustness{count, limits[k].admissible, limits[k].moving, 360.0 * k / count};
-  return least;
+    if (limits[k].outcome == DirectionLimit::found &&
+        (!all.least || limits[k].moving < all.least->acceleration_g))
+      all.least =
+          Robustness{count - all.undecided, limits[k].admissible, limits[k].moving, 360.0 * k / count};
+  return all;
 }
 
-/// One clause for the message of a run.
-std::string describe(const Robustness& robustness) {
+/// Clauses for the message of a run.
+std::string describe(const DirectionLimits& limits) {
+  const std::string undecided =
+      limits.undecided > 0
+          ? fmt::format("; {} of {} horizontal directions are undecided", limits.undecided, limits.directions)
+          : "";
+  if (!limits.least)
+    return undecided.empty()
+               ? fmt::format("; no horizontal acceleration in {} directions makes it move", limits.directions)
+               : undecided;
+  const Robustness& least = *limits.least;
+  if (least.acceleration_g == 0.0)
+    return fmt::format("; any horizontal acceleration towards {:g} degrees makes it move{}",
+                       least.azimuth_deg, undecided);
   return fmt::format(
-      "; the least of {} horizontal accelerations that make it move is {:.4g} g, towards {:g} degrees",
-      robustness.directions, robustness.moving_g, robustness.azimuth_deg);
+      "; the least of {} horizontal accelerations that make it move is {:.4g} g, towards {:g} degrees{}",
+      least.directions, least.moving_g, least.azimuth_deg, undecided);
 }
 
 /// A note for the message if displacements are large, because equilibrium is found on the geometry as built.
@@ -172,9 +198,9 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summary.message += gaps_note(model, rest, contacts);
   if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
-    summary.robustness = find_robustness(scene, assembly);
-    summary.message += summary.robustness ? describe(*summary.robustness)
-                                          : "; no horizontal acceleration was found that makes it move";
+    const DirectionLimits limits = find_robustness(scene, assembly);
+    summary.robustness = limits.least;
+    summary.message += describe(limits);
   }
   if (solution.outcome != StaticOutcome::equilibrium && !symmetry && !wrench_error)
     if (const auto parts = solve_by_parts(model, rest, contacts, memories, options))

@@ -73,17 +73,6 @@ TEST(FirstScreen, AConstructionWithoutALeastPropertySaysWhy) {
             "unknown");
 }
 
-// An assessment does not advise to run an assessment.
-TEST(FirstScreen, ASearchForAccelerationsThatFindsNoneSaysSo) {
-  Evaluation e = test::column_evaluation(0.6, 0.4);
-  e.scene.analysis.robustness = 8;
-  e.summary.message += "; no horizontal acceleration was found that makes it move";
-  const KeyNumber margin = margin_answer(e);
-  EXPECT_EQ(margin.name, "Horizontal acceleration");
-  EXPECT_EQ(margin.value, "none found");
-  EXPECT_EQ(margin.detail, "no horizontal acceleration was found that makes it move");
-}
-
 TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.summary.analysis = AnalysisType::limit;

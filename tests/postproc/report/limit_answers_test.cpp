@@ -28,6 +28,25 @@ TEST(LimitAnswers, TheMarginSaysWhatWasLookedForInVain) {
   EXPECT_EQ(margin(Status::unconverged, both + ", 0.01 and 1; widen the bracket").value, "unknown");
 }
 
+// A search for accelerations says what it found: none that moves it, none that it bears, or nothing.
+TEST(LimitAnswers, ASearchForAccelerationsSaysWhatItFound) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.scene.analysis.robustness = 8;
+  const std::string rest = e.summary.message;
+  const auto answer = [&](const char* clause) {
+    e.summary.message = rest + "; " + clause;
+    const KeyNumber margin = margin_answer(e);
+    EXPECT_EQ(margin.name, "Horizontal acceleration");
+    EXPECT_EQ(margin.detail, clause);
+    return margin.value;
+  };
+  EXPECT_EQ(answer("no horizontal acceleration in 8 directions makes it move"), "no limit");
+  EXPECT_EQ(answer("8 of 8 horizontal directions are undecided"), "unknown");
+  e.summary.robustness = Robustness{8, 0.0, 1e-8, 45.0};
+  EXPECT_EQ(margin_answer(e).value, "0 g");
+  EXPECT_EQ(margin_answer(e).detail, "any push towards 45 degrees makes it move");
+}
+
 // The assessment of a case that falls does not advise to run an assessment.
 TEST(LimitAnswers, NoAccelerationIsLeftToWhatFalls) {
   Evaluation e = test::column_evaluation(0.6, 0.4);

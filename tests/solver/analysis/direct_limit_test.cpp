@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <regex>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -363,71 +362,6 @@ TEST(DirectLimit, LeastPeakStressOfAPier) {
   ASSERT_EQ(frames.size(), 1u) << "no mechanism";
   scene.loads.gravity = testing::tilted_gravity(0.5);
   EXPECT_EQ(run_limit(scene, pier, {}).value().status, Status::moving);
-}
-
-// A brick tips about the edge of its base: half width over half height, here about the y axis first. Friction
-// would let it slide at 0.7.
-TEST(Robustness, BrickTipsAboutItsLongEdge) {
-  Case scene = testing::make_case(0.7, 1e-8, 0.01);
-  scene.analysis.type = AnalysisType::static_;
-  scene.analysis.robustness = 8;
-  const Summary summary = run_static(scene, testing::box_on_floor({0.2, 0.5, 0.8}), {});
-  ASSERT_TRUE(summary.robustness) << summary.message;
-  EXPECT_NEAR(summary.robustness->acceleration_g, 0.25, 1e-6);
-  EXPECT_NEAR(summary.robustness->moving_g, 0.25, 1e-6);
-  EXPECT_EQ(summary.robustness->azimuth_deg, 0.0);
-  EXPECT_EQ(summary.robustness->directions, 8);
-}
-
-// A dome in mortar, which the programmes solve to bounds that differ by rounding only if the mechanism is
-// improved. Below a friction of a thousandth cohesion leaves nothing to solve.
-TEST(Robustness, DomesInMortarHaveALimit) {
-  const Assembly dome = testing::make_sphere(2.0, 0.25, std::numbers::pi / 28.0, 12, 24);
-  Case scene = testing::course_case(0.0, 0.3);
-  scene.joints.friction = 0.6;
-  scene.joints.strength = {.tension = 5e4, .cohesion = 1e5};
-  scene.analysis.type = AnalysisType::static_;
-  scene.analysis.friction_law = FrictionLaw::associated;
-  scene.analysis.robustness = 1;
-  const Summary pushed = run_static(scene, dome, {});
-  ASSERT_TRUE(pushed.robustness) << pushed.message;
-  EXPECT_NEAR(pushed.robustness->moving_g / pushed.robustness->acceleration_g, 1.0, 1e-4);
-
-  scene.analysis.type = AnalysisType::limit;
-  scene.analysis.limit.parameter = Parameter::friction;
-  scene.analysis.limit.low = 0.0;
-  scene.analysis.limit.high = 1.0;
-  const Summary slides = run_limit(scene, dome, {}).value();
-  EXPECT_EQ(slides.status, Status::stable);
-  // From 0.001 or, where rounding prevents that solve, twice or more of it.
-  EXPECT_TRUE(
-      std::regex_match(slides.message, std::regex("friction: no limit above (0\\.00\\d): the structure "
-                                                  "stands at every value from \\1 to 1")))
-      << slides.message;
-}
-
-// A square tower of bricks turned by its place has four equal sectors: two of eight directions represent all,
-// and have the limits that analyses of one direction find.
-TEST(Robustness, EqualSectorsHaveEqualLimits) {
-  std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true}};
-  for (const double x : {-1.0, 1.0}) {
-    boxes.push_back({.center = {x, 0, 0.5}, .size = {0.4, 0.6, 1.0}});
-    boxes.push_back({.center = {0, x, 0.5}, .size = {0.6, 0.4, 1.0}});
-  }
-  const Assembly assembly = testing::make_boxes(boxes);
-  Case scene = testing::make_case(0.7, 1e-8, 0.01);
-  scene.analysis.type = AnalysisType::static_;
-  scene.analysis.robustness = 8;
-  const Summary summary = run_static(scene, assembly, {});
-  ASSERT_TRUE(summary.robustness) << summary.message;
-  EXPECT_NEAR(summary.robustness->moving_g, 0.4, 1e-6) << "over its shorter side";
-  EXPECT_EQ(summary.robustness->azimuth_deg, 0.0);
-  for (const double azimuth : {0.0, 90.0, 180.0, 270.0}) {
-    Case push = limit_case(Parameter::acceleration, 0.0, 2.0, 0.7);
-    const double a = azimuth * std::numbers::pi / 180.0;
-    push.analysis.limit.direction = {std::cos(a), std::sin(a), 0.0};
-    EXPECT_NEAR(critical(push, assembly), summary.robustness->moving_g, 1e-6) << azimuth;
-  }
 }
 
 TEST(DirectLimit, IsChosenWhereItApplies) {
