@@ -84,6 +84,22 @@ std::vector<size_t> fallen_rows(const Table& table) {
   return rows;
 }
 
+/// Rows of limits whose structure stands without a critical value.
+std::vector<size_t> rows_without_limit(const Table& table, size_t critical) {
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  std::vector<size_t> rows;
+  for (size_t r = 0; r < statuses.size(); ++r)
+    if (stands(statuses[r]) && !std::holds_alternative<double>(table.rows[r][critical])) rows.push_back(r);
+  return rows;
+}
+
+/// "2 of 4 runs fall throughout the bracket, first at ...".
+std::string throughout(const char* verb, const std::vector<size_t>& rows,
+                       const std::vector<std::string>& keys, const Table& table) {
+  return fmt::format("{} of {} {} throughout the bracket, first at {}", rows.size(),
+                     counted(table.rows.size(), "run"), verb, settings_of(keys, table, rows.front()));
+}
+
 }  // namespace
 
 std::string governing_member(const std::vector<std::string>& keys, const Table& table, bool more_is_safer) {
@@ -93,13 +109,13 @@ std::string governing_member(const std::vector<std::string>& keys, const Table& 
   const auto worst = row_at_the_end(table, by, least_governs),
              best = row_at_the_end(table, by, !least_governs);
   if (!worst || !std::holds_alternative<double>(table.rows[*worst][critical])) return "";
-  const std::vector<size_t> fallen = fallen_rows(table);
+  const std::vector<size_t> fallen = fallen_rows(table), standing = rows_without_limit(table, critical);
   std::string text = "What governs: ";
-  if (!fallen.empty())
-    text += fmt::format("{} of {} fall throughout the bracket, first at {}. Of the others: ", fallen.size(),
-                        counted(table.rows.size(), "run"), settings_of(keys, table, fallen.front()));
+  if (!fallen.empty()) text += throughout("fall", fallen, keys, table) + ". Of the others: ";
   text += fmt::format("critical value {}.", critical_at(keys, table, *worst, critical));
-  if (*best != *worst && std::holds_alternative<double>(table.rows[*best][critical]))
+  if (!standing.empty())
+    text += fmt::format(" At the other end: {}.", throughout("stand", standing, keys, table));
+  else if (*best != *worst && std::holds_alternative<double>(table.rows[*best][critical]))
     text += fmt::format(" At the other end: {}.", critical_at(keys, table, *best, critical));
   return text;
 }

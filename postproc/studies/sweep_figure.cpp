@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -78,6 +79,13 @@ Rows without_equilibrium(const Table& table, size_t status) {
   return rows;
 }
 
+/// The last row with a value. gnuplot crashes where all labels of a plot lack one.
+std::optional<size_t> last_point(const Rows& rows) {
+  for (size_t r = rows.size(); r-- > 0;)
+    if (std::isfinite(rows[r][1])) return r;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Table in_readable_units(Table table) {
@@ -138,7 +146,8 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       plot += fmt::format(
           "{} ${} using 1:2 w l lc rgb '{}' lw 1.5, ${} using 1:2:3 w p pt variable ps 0.9 lc rgb '{}'",
           plot.empty() ? "plot" : ",", block, colour, block, colour);
-      if (!name.empty()) plot += curve_label(block, rows.size() - 1, "$1", "$2", name, colour);
+      if (const auto named = last_point(rows); named && !name.empty())
+        plot += curve_label(block, *named, "$1", "$2", name, colour);
       ++n;
     }
     plots.back() += plot +

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/files/atomic_file.hpp"
+#include "postproc/figures/gnuplot.hpp"
 #include "postproc/studies/ensemble.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
@@ -180,6 +181,26 @@ TEST(SweepTable, MembersThatFallThroughoutTheirBracketGovern) {
             std::string::npos);
 }
 
+// A tower that bears no push without friction, then 1.8 and 2.4 times its own, and last more than the bracket.
+TEST(SweepTable, MembersThatStandThroughoutTheirBracketAreTheOtherEnd) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"joints.friction", {"0", "0.3", "0.4", "0.6"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "tower"))
+    members.push_back({member.name, "tower", member.settings});
+  const char* results[] = {R"({"status": "moving"})", R"({"status": "stable", "critical_value": 1.8})",
+                           R"({"status": "stable", "critical_value": 2.4})", R"({"status": "stable"})"};
+  for (size_t i = 0; i < members.size(); ++i)
+    scratch.write(members[i].name + "/results/summary.json", results[i]);
+  StudyPage page("Towers", scratch.file("page"));
+  const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+  EXPECT_NE(
+      text.find("Of the others: critical value 1.8 at joints.friction = 0.3 (tower_friction0.3). At the "
+                "other end: 1 of 4 runs stand throughout the bracket, first at joints.friction = 0.6"),
+      std::string::npos)
+      << text;
+}
+
 /// A sweep over friction and thickness of four members with a critical value each.
 Table table_of_four() {
   Table table{"sweep", "", {}, {}};
@@ -204,6 +225,22 @@ TEST(SweepFigure, DrawsResultsOverTheFirstKey) {
   EXPECT_NE(f.commands.find("$column6_1 << EOD\n0.2 11 6 \n0.4 13 7 \nEOD"), std::string::npos) << f.commands;
   EXPECT_NE(f.commands.find("'thickness 2'"), std::string::npos);
   EXPECT_EQ(f.commands.find("cpu_time"), std::string::npos);
+}
+
+// A curve is named at its last point that has a value, here of the stable member, and not at all without one:
+// gnuplot crashes on a label at no place.
+TEST(SweepFigure, NamesCurvesWhereTheyHaveAValue) {
+  const std::vector<SweptKey> sweep{{"joints.friction", {"0.2", "0.4"}}, {"geometry.thickness", {"1", "2"}}};
+  Table table = table_of_four();
+  table.rows[2].back() = std::string();
+  const Figure f = sweep_figure(sweep, table);
+  EXPECT_NE(f.commands.find("$column6_0 every ::0::0 using ($1):($2):('thickness 1')"), std::string::npos)
+      << f.commands;
+  EXPECT_NE(f.commands.find("$column6_1 every ::1::1 using ($1):($2):('thickness 2')"), std::string::npos);
+  const ScratchFolder scratch;
+  EXPECT_TRUE(draw_figures(scratch.folder(), {f}).empty());
+  table.rows[0].back() = std::string();
+  EXPECT_EQ(sweep_figure(sweep, table).commands.find("'thickness 1'"), std::string::npos);
 }
 
 TEST(SweepFigure, NeedsNumbersThatVary) {
