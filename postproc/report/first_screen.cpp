@@ -70,8 +70,7 @@ std::string how_sure(const Evaluation& e) {
   if (s.critical && !is_stage(e.last.frame.role) && s.critical->parameter != "peak_stress")
     return fmt::format(
         "The structure stands at one end of a bracket of relative width {:.1e} and moves at the other. {}",
-        std::abs(s.critical->stable - s.critical->moving) / std::max(std::abs(s.critical->value), 1e-300),
-        to_sentence(s.forces_unique));
+        s.accuracy.reached, to_sentence(s.forces_unique));
   const auto ended = [](const ForceRange& r) {
     return r.min.outcome != RangeOutcome::unconverged && r.max.outcome != RangeOutcome::unconverged;
   };

@@ -64,12 +64,19 @@ bool shows_the_case(const Evaluation& e) {
   return at_rest(e) && !e.summary.critical && e.summary.ranges.empty() && !is_stage(e.last.frame.role);
 }
 
+/// What carries the blocks.
+const char* carriers(const Evaluation& e) {
+  return !e.last.joints.wrenches.empty()       ? "joint forces"
+         : e.scene.supports.restraints.empty() ? "ties"
+                                               : "ties and restraints";
+}
+
 /// Why one equilibrium stands: what carries what, and after which motion.
 std::string carried_text(const Evaluation& e) {
   const std::string loads = loads_text(e);
-  const std::string carry =
-      fmt::format("The joint forces carry the weight of {}, {}{}{}", counted(e.summary.free_blocks, "block"),
-                  force_text(e.summary.weight_N), loads.empty() ? "" : ", ", loads);
+  const std::string carry = fmt::format("The {} carry the weight of {}, {}{}{}", carriers(e),
+                                        counted(e.summary.free_blocks, "block"),
+                                        force_text(e.summary.weight_N), loads.empty() ? "" : ", ", loads);
   if (support_motion(e) > 0.0) return fmt::format("{}, although {}.", carry, moved_text(e));
   if (e.last.frame.role == FrameRole::step)
     return fmt::format("{}, at rest after {:.4g} s of motion, in which {}.", carry, e.last.frame.time,
@@ -171,13 +178,17 @@ std::string certain_of_limit(const Evaluation& e) {
         "Certain: an equilibrium was found at {}. Not certain: that there is none beyond. Assumed: {}, and "
         "the stiffness of the joints.",
         standing, assumptions(e));
+  // Nothing is less than none.
+  const std::string instead =
+      critical.stable == 0.0
+          ? ""
+          : fmt::format("; it may {} {}", critical.stable < critical.moving ? "fall at a lower" : "need more",
+                        words_of(critical));
   return fmt::format(
       "{}: at {} forces balance the loads, whatever the stiffness of the joints and their history. Not "
-      "certain: that it stands there under Coulomb's law, by which joints slide without opening; it may {} "
-      "{}. Assumed: {}.",
-      proven(e.summary.status) ? "Certain" : "To the tolerance", standing,
-      critical.stable < critical.moving ? "fall at a lower" : "need more", words_of(critical),
-      assumptions(e));
+      "certain: that it stands there under Coulomb's law, by which joints slide without opening{}. Assumed: "
+      "{}.",
+      proven(e.summary.status) ? "Certain" : "To the tolerance", standing, instead, assumptions(e));
 }
 
 }  // namespace
@@ -221,8 +232,9 @@ std::string certain_sentence(const Evaluation& e) {
                    : support_motion(e) > 0.0 ? "after the motion of the supports "
                                              : "";
   const std::optional<KeyNumber> crack = crack_answer(e);
-  const char* how =
-      e.scene.joints.have_strength() ? "within the limits of the joints" : "by friction and without tension";
+  const std::string how = e.last.joints.wrenches.empty()   ? fmt::format("in the {}", carriers(e))
+                          : e.scene.joints.have_strength() ? "within the limits of the joints"
+                                                           : "by friction and without tension";
   const char* stiffness = thrust_answer(e) || (crack && crack->value != "none")
                               ? ", and the stiffness of the joints, on which thrust and cracks depend"
                               : "";

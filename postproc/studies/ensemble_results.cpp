@@ -39,8 +39,8 @@ void add_estimate(const IntervalEstimate& estimate, std::vector<Table::Cell>* ro
 
 void add_estimate_columns(const std::string& key, const std::string& meaning, Table* table) {
   table->columns.push_back({key, "", meaning});
-  table->columns.push_back({key + "_low", "", "95 % low"});
-  table->columns.push_back({key + "_high", "", "95 % high"});
+  table->columns.push_back({key + "_low", "", meaning + ", 95 % low"});
+  table->columns.push_back({key + "_high", "", meaning + ", 95 % high"});
 }
 
 /// A number of a sentence.
@@ -132,16 +132,12 @@ std::string critical_sentence(const EnsembleResults& ensemble, size_t column) {
         ensemble.name, short_number(quantile_of(drawn, 0.5).value), unit,
         short_number(quantile_of(drawn, 0.05).value), short_number(quantile_of(drawn, 0.95).value));
   int without[2] = {0, 0};  // a critical value: that stand, that fall
-  std::vector<double> found;
-  for (size_t i = 0; i < drawn.values.size(); ++i) {
-    if (std::isfinite(drawn.values[i])) found.push_back(drawn.values[i]);
+  for (size_t i = 0; i < drawn.values.size(); ++i)
     if (std::isinf(drawn.values[i])) ++without[ensemble.falls[i]];
-  }
-  const auto [least, greatest] = std::ranges::minmax(found);
-  const auto text = [&, least = least, greatest = greatest](double p) {
+  const auto text = [&](double p) {
     const double value = quantile_of(drawn, p).value;
     if (std::isfinite(value)) return short_number(value) + unit;
-    return (value < 0.0 ? "below " + short_number(least) : "above " + short_number(greatest)) + unit;
+    return std::string(value < 0.0 ? "below the bracket" : "above the bracket");
   };
   std::vector<std::string> parts;
   if (without[1] > 0) parts.push_back(counted(without[1], "falls", "fall"));

@@ -73,6 +73,16 @@ TEST(FirstScreen, AConstructionWithoutALeastPropertySaysWhy) {
             "unknown");
 }
 
+// A stone that hangs from ties has no joints.
+TEST(FirstScreen, TiesCarryWhatHasNoJoints) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.last.joints.wrenches.clear();
+  EXPECT_TRUE(reason_for_verdict(e).starts_with("The ties carry the weight of 3 blocks"))
+      << reason_for_verdict(e);
+  EXPECT_NE(certain_sentence(e).find("forces exist that balance the loads in the ties. "), std::string::npos)
+      << certain_sentence(e);
+}
+
 TEST(FirstScreen, ALimitAnalysisBeginsWithItsCriticalValue) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.summary.analysis = AnalysisType::limit;

@@ -3,6 +3,7 @@
 
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/report/answers.hpp"
+#include "postproc/report/first_screen.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::limit_answers_test {
@@ -92,6 +93,17 @@ TEST(LimitAnswers, SupportsThatSpreadFurtherThanTheCriticalFactorAreItsFall) {
   const Evaluation e = limit_of(LimitSearch::Parameter::spread, 0.0, 0.625, 0.6254);
   EXPECT_EQ(verdict_words(e).words, "It falls");
   EXPECT_NEAR(factor_of_safety(e.scene, e.summary).value(), 0.625, 1e-15);
+}
+
+// A block on a floor without friction: its bracket has no relative width, and nothing is less than 0 g.
+TEST(LimitAnswers, ALimitAtZeroHasTheWidthThatWasReached) {
+  Evaluation e = limit_of(LimitSearch::Parameter::acceleration, 0.0, 0.0, 5e-10);
+  e.summary.accuracy.reached = 1.25e-12;
+  EXPECT_TRUE(
+      how_sure(e).starts_with("The structure stands at one end of a bracket of relative width 1.2e-12 "))
+      << how_sure(e);
+  EXPECT_NE(certain_sentence(e).find("slide without opening. Assumed"), std::string::npos)
+      << certain_sentence(e);
 }
 
 // Forces that do not balance at one end of the bracket decide nothing.

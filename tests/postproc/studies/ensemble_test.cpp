@@ -233,6 +233,8 @@ TEST(EnsemblePage, ComparesEnsemblesMemberByMember) {
       << text;
   EXPECT_NE(text.find("b: 7 of 8 members fall: probability 87.5 % (47.3 to 99.7 %)."), std::string::npos)
       << text;
+  EXPECT_NE(read_text(scratch.file("page/study.html")).find("<th>Median, 95 % low<"), std::string::npos)
+      << "of which number";
   for (const char* file :
        {"a.csv", "b.csv", "a_statistics.csv", "a_inputs.csv", "a_ends.csv", "differences.csv"})
     EXPECT_TRUE(std::filesystem::exists(scratch.file(std::string("page/") + file))) << file;
@@ -277,8 +279,9 @@ TEST(EnsemblePage, MembersWithoutACriticalValueCountInItsQuantiles) {
     page.write();
     const std::string counts = "a: of 8 members 5 fall and 1 stands throughout the bracket.";
     EXPECT_NE(
-        text.find(counts + " With them, the 5 % quantile of the critical value is below 2, the median " +
-                  (more ? "below 2" : "above 3") + ", the 95 % quantile above 3."),
+        text.find(counts +
+                  " With them, the 5 % quantile of the critical value is below the bracket, the median " +
+                  (more ? "below" : "above") + " the bracket, the 95 % quantile above the bracket."),
         std::string::npos)
         << text;
     EXPECT_NE(read_text(scratch.file("page/study.html"))
