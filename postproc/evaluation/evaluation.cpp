@@ -217,26 +217,37 @@ std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   return loads;
 }
 
-/// Per block, true if a frame of a construction leaves it out: blocks not laid yet, and courses held as
-/// supports. Neither rests on a joint of the frame. Empty unless a stage is shown.
-std::vector<bool> blocks_left_out(const Assembly& assembly, const FrameEvaluation& shown) {
-  if (!is_stage(shown.frame.role)) return {};
-  std::vector<bool> left_out(assembly.blocks.size(), true);
+/// Per block, true if a frame leaves it out. Of a construction: blocks not laid yet, and courses held as
+/// supports; neither rests on a joint of the frame. Of an equilibrium of some parts: the others. Empty if
+/// none.
+std::vector<bool> blocks_left_out(const Evaluation& e, const FrameEvaluation& shown) {
+  const bool some_parts = shown.frame.role == FrameRole::equilibrium && !e.summary.parts.empty();
+  if (!is_stage(shown.frame.role) && !some_parts) return {};
+  std::vector<bool> left_out(e.assembly.blocks.size(), true);
+  if (some_parts) {
+    const std::vector<int> part_of = connected_parts(e.assembly, shown.joints);
+    for (const PartVerdict& part : e.summary.parts)
+      for (size_t b = 0; b < left_out.size() && stands(part.status); ++b)
+        if (part_of[b] == part_of[part.first_block]) left_out[b] = false;
+    return left_out;
+  }
   for (const JointWrench& joint : shown.joints.wrenches)
     if (joint.upper >= 0) left_out[joint.upper] = false;
   return left_out;
 }
 
-/// A stage bears loads other than weight once all blocks are laid: those on blocks that it does not hold.
-void leave_out_loads(const Evaluation& e, FrameEvaluation* stage) {
-  const std::vector<bool> left_out = blocks_left_out(e.assembly, *stage);
-  const bool holds = e.scene.analysis.staged.hold_below >= 0;
+/// Loads on blocks that a frame leaves out. A stage bears loads other than weight once all blocks are laid.
+void leave_out_loads(const Evaluation& e, FrameEvaluation* shown) {
+  const std::vector<bool> left_out = blocks_left_out(e, *shown);
+  const bool stage = is_stage(shown->frame.role), holds = e.scene.analysis.staged.hold_below >= 0;
   bool complete = true;
-  for (size_t i = 0; i < left_out.size(); ++i) {
+  for (size_t i = 0; i < left_out.size() && stage; ++i) {
     const Block& block = e.assembly.blocks[i];
-    if (left_out[i] && !block.fixed && !(holds && block.ring <= stage->frame.time)) complete = false;
+    if (left_out[i] && !block.fixed && !(holds && block.ring <= shown->frame.time)) complete = false;
   }
-  std::erase_if(stage->loads, [&](const PointForce& load) { return !complete || left_out[load.block]; });
+  std::erase_if(shown->loads, [&](const PointForce& load) {
+    return !complete || (!left_out.empty() && left_out[load.block]);
+  });
 }
 
 void evaluate_cuts(const std::vector<bool>& left_out, Evaluation* e) {
@@ -311,7 +322,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
     const double time = timeless ? 0.0 : out.frame.time;
     out.gravity = factor_at(e.acting.dead_load_time, time) * e.acting.gravity;
     out.loads = loads_at(e, time);
-    if (is_stage(out.frame.role)) leave_out_loads(e, &out);
+    leave_out_loads(e, &out);
   }
   out.from_below = wrenches_from_below(e.assembly, out.joints, out.poses);
   out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
@@ -355,7 +366,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         "wrenches on blocks count the forces of joints only, thrust lines those of joints and ties");
 
   e.last = evaluate_frame(e, std::move(shown));
-  const std::vector<bool> left_out = blocks_left_out(e.assembly, e.last);
+  const std::vector<bool> left_out = blocks_left_out(e, e.last);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   warn_of_props(&e);

@@ -166,6 +166,8 @@ KeyNumber margin_answer(const Evaluation& e) {
                 ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees",
                               robust->directions, robust->azimuth_deg)
                 : fmt::format("any push towards {:.4g} degrees makes it move", robust->azimuth_deg)};
+  if (e.scene.analysis.robustness > 0 && at_rest(e) && !e.summary.parts.empty())
+    return {"Horizontal acceleration", "not computed", "not all parts stand"};
   if (e.scene.analysis.robustness > 0 && at_rest(e)) {
     const std::string clause = last_clause(e.summary.message);
     return {"Horizontal acceleration", clause.starts_with("no horizontal") ? "no limit" : "unknown", clause};

@@ -79,10 +79,11 @@ std::string case_section(const Evaluation& e) {
   const Summary& s = e.summary;
   row("Analysis", fmt::format("{}, method {}, friction law {}, tangential spring {}", to_string(s.analysis),
                               to_string(s.method), to_string(s.friction_law), to_string(s.tangential)));
-  row("Blocks",
-      fmt::format("{}, of which {} free; {}", s.blocks, s.free_blocks, counted(s.unknowns, "unknown")));
+  const bool all = s.parts.empty() || !at_rest(e);
+  row("Blocks", fmt::format("{}, of which {} {}; {}", s.blocks, s.free_blocks,
+                            all ? "free" : "free and standing", counted(s.unknowns, "unknown")));
   row("Joints", fmt::format("{} with {}", s.joints, counted(s.contacts, "contact point")));
-  row("Weight of the free blocks", force_text(s.weight_N));
+  row(all ? "Weight of the free blocks" : "Weight of what stands", force_text(s.weight_N));
   row("Total load, weight included", force_text(s.applied_load_N.norm()));
   row("Friction coefficient", fmt::format("{:g}", e.scene.joints.friction));
   row("Unit weight", unit_weight_text(e));

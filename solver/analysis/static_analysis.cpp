@@ -204,7 +204,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   }
   if (solution.outcome != StaticOutcome::equilibrium && !symmetry && !wrench_error)
     if (const auto parts = solve_by_parts(model, rest, contacts, memories, options))
-      add_parts(*parts, model, options, &summary, sinks);
+      add_parts(*parts, options, &summary, sinks);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;

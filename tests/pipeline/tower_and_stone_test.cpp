@@ -64,6 +64,8 @@ TEST(TowerAndStone, TheStoneFallsAndTheTowerStandsUnderItsOwnWeight) {
       << both.answers;
   // Three cubes of 1 m3 and 2000 kg at 10 m/s2 weigh 60 kN, and the stone does not reach the ground.
   EXPECT_NEAR(both.summary.support_reaction_N.z(), 60e3, 1e-3);
+  EXPECT_EQ(both.summary.free_blocks, 3);
+  EXPECT_NEAR(both.summary.weight_N, 60e3, 1e-10 * 60e3) << "rounding of the volumes";
 
   // Of the tower alone the forces are the same, to the default tolerance of 1e-9 of a block's weight: its
   // courses are found, and with them another first step.

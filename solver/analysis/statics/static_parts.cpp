@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,20 @@ std::vector<OnePart> parts_of(const Model& model, const std::vector<int>& island
   return parts;
 }
 
+/// The blocks chosen as a scene with a weight of its own.
+ScenePart scene_of(const Model& model, const State& start, const ContactSet& contacts,
+                   const ContactMemories& memories, const std::vector<char>& chosen) {
+  ScenePart part = part_of(model, start, contacts, memories, chosen, 1);
+  Model& own = part.model;
+  const auto mass_of = [](const Model& of) {
+    return std::accumulate(of.free_blocks.begin(), of.free_blocks.end(), 0.0,
+                           [&](double mass, int b) { return mass + of.assembly->blocks[b].mass; });
+  };
+  own.free_weight *= mass_of(own) / mass_of(model);
+  own.block_weight = own.free_weight / own.num_free();
+  return part;
+}
+
 StaticSolution solve_part(const ScenePart& part, const StaticOptions& options) {
   return solve_static(part.model, part.state, part.contacts, part.memories, options);
 }
@@ -56,7 +71,7 @@ std::optional<StaticParts> solve_by_parts(const Model& model, const State& start
   StaticParts out;
   std::vector<char> standing(static_cast<size_t>(model.num_free()));
   for (OnePart& part : parts) {
-    const ScenePart scene = part_of(model, start, contacts, memories, part.chosen, 1);
+    const ScenePart scene = scene_of(model, start, contacts, memories, part.chosen);
     const StaticSolution solution = solve_part(scene, options);
     part.verdict.status = status_of(scene, solution, options);
     part.stands = solution.outcome == StaticOutcome::equilibrium;
@@ -64,13 +79,13 @@ std::optional<StaticParts> solve_by_parts(const Model& model, const State& start
     out.verdicts.push_back(part.verdict);
   }
   if (!parts.front().stands) return out;
-  out.standing = part_of(model, start, contacts, memories, standing, 1);
+  out.standing = scene_of(model, start, contacts, memories, standing);
   out.solution = solve_part(*out.standing, options);
   if (out.solution.outcome != StaticOutcome::equilibrium) out.standing.reset();
   return out;
 }
 
-void add_parts(const StaticParts& parts, const Model& model, const StaticOptions& options, Summary* summary,
+void add_parts(const StaticParts& parts, const StaticOptions& options, Summary* summary,
                const AnalysisSinks& sinks) {
   const Status whole = summary->status;
   const std::string message = summary->message;
@@ -79,7 +94,7 @@ void add_parts(const StaticParts& parts, const Model& model, const StaticOptions
   const ScenePart& standing = *parts.standing;
   const Frame frame = static_frame(standing.model, standing.state, standing.contacts, standing.memories,
                                    parts.solution, options);
-  summarize_static(parts.solution, frame, model, options.tolerance, summary);
+  summarize_static(parts.solution, frame, standing.model, options.tolerance, summary);
   const int blocks = standing.model.num_free();
   const std::string stands =
       fmt::format("of {} those with {} stand: {}", counted(parts.verdicts.size(), "unconnected part"),

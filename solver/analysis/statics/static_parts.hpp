@@ -25,7 +25,7 @@ std::optional<StaticParts> solve_by_parts(const Model& model, const State& start
 
 /// Writes the verdicts into the summary, whose status becomes that of the worst part. If the largest part
 /// stands, the summary describes the equilibrium of all that do, and its frame is written.
-void add_parts(const StaticParts& parts, const Model& model, const StaticOptions& options, Summary* summary,
+void add_parts(const StaticParts& parts, const StaticOptions& options, Summary* summary,
                const AnalysisSinks& sinks);
 
 }  // namespace cupola

@@ -50,6 +50,23 @@ TEST(Evaluation, MissingForceShowsInTheRingSum) {
   EXPECT_NEAR(e.rings[1].relative_difference, 0.01, 1e-12);
 }
 
+// Of three blocks the lowest stands alone; the others, with the load on top, are parts that fall.
+TEST(Evaluation, PartsThatFallLoadNothing) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  frame.contacts = test::column_at_rest(test::column(1), kGravity, 0.0, 0.6, 0.4).contacts;
+  Summary summary = column_summary(a);
+  summary.parts = {{1, 1, Status::stable}, {2, 2, Status::moving}};
+  Case scene = column_case();
+  scene.loads.top_load = TopLoad{10.0};
+  const Evaluation e = evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
+  ASSERT_EQ(e.rings.size(), 3u);
+  EXPECT_NEAR(e.rings[0].load_above.z(), -kBlockWeight, 1e-9 * kBlockWeight);
+  EXPECT_LT(e.rings[0].relative_difference, 1e-14);
+  EXPECT_EQ(e.rings[1].blocks, 0);
+  EXPECT_TRUE(e.last.loads.empty());
+}
+
 TEST(Evaluation, EccentricColumnHasEccentricityKernAndEdgeDistance) {
   // Resultant at (0.9, 0.4) of a 1.2 x 0.8 m bed: eccentricity 0.3 m, kern 6 e / b = 1.5, edge 0.3 m away.
   const Evaluation e = column_evaluation(0.9, 0.4);

@@ -46,6 +46,10 @@ TEST(LimitAnswers, ASearchForAccelerationsSaysWhatItFound) {
   e.summary.robustness = Robustness{8, 0.0, 1e-8, 45.0};
   EXPECT_EQ(margin_answer(e).value, "0 g");
   EXPECT_EQ(margin_answer(e).detail, "any push towards 45 degrees makes it move");
+  e.summary.robustness.reset();
+  e.summary.parts = {{1, 2, Status::stable}, {3, 1, Status::moving}};
+  EXPECT_EQ(margin_answer(e).value, "not computed") << "of what stands in part";
+  EXPECT_EQ(margin_answer(e).detail, "not all parts stand");
 }
 
 // The assessment of a case that falls does not advise to run an assessment.
