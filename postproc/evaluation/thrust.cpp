@@ -1,10 +1,11 @@
 #include "postproc/evaluation/thrust.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "postproc/mechanics/ring_sums.hpp"
+#include "assembly/model/thrust_joint.hpp"
 
 namespace cupola {
 namespace {
@@ -20,34 +21,17 @@ std::optional<double> sum_over_supports(const Evaluation& e) {
   return above(sum, e.last.joints.floor.force);
 }
 
-/// N, at the springing of an arch at x < 0 in its own frame; none of a half arch.
-std::optional<double> thrust_of_other_side(const Evaluation& e, const Sheet& sheet) {
-  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
-  const auto in_stack = [&, first = first, end = end](int block) {
-    const int ring = ring_above_support(e.assembly.blocks[block]);
-    return ring >= first && ring < end;
-  };
-  std::optional<double> thrust;
-  for (const JointWrench& joint : e.last.joints.wrenches) {
-    const bool holds_a = in_stack(joint.block_a), holds_b = in_stack(joint.block_b);
-    if (holds_a == holds_b || sheet.own(joint.centroid).x() >= 0.0) continue;
-    const int outside = holds_a ? joint.block_b : joint.block_a;
-    if (ring_above_support(e.assembly.blocks[outside]) >= end) continue;  // leans on the arch
-    const Vec3 outward = -sheet.towards(0.0);
-    thrust = thrust.value_or(0.0) + outward.dot(wrench_on(joint, outside).force);
-  }
-  return thrust ? std::optional(above(*thrust, e.last.joints.floor.force)) : std::nullopt;
-}
-
 }  // namespace
 
 std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
   std::vector<const Sheet*> pushing;
   const std::vector<Sheet>& sheets = e.assembly.sheets;
-  for (size_t i = sheets.size(); i-- > 0;)
-    if ((i + 1 == sheets.size() || !sheets[i + 1].on_previous) && sheets[i].num_rings > 0 &&
-        sheets[i].thrust_lines != Sheet::ThrustLines::none)
-      pushing.push_back(&sheets[i]);
+  for (size_t i = sheets.size(); i-- > 0;) {
+    if (sheets[i].num_rings == 0 || sheets[i].thrust_lines == Sheet::ThrustLines::none) continue;
+    const int first = e.assembly.stack_of(sheets[i].first_ring).first;
+    if (!pushing.empty() && e.assembly.stack_of(pushing.back()->first_ring).first == first) continue;
+    pushing.push_back(&sheets[i]);
+  }
   return pushing;
 }
 
@@ -60,13 +44,23 @@ bool alike(double a, double b) {
 }
 
 std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
-  const double first = base_of(e, sheet).radial_thrust;
-  if (sheet.thrust_lines != Sheet::ThrustLines::one) return {{first, std::nullopt}};
-  std::vector<Thrust> thrusts{{first, sheet.towards(0.0)}};
-  if (const std::optional<double> other = thrust_of_other_side(e, sheet)) {
-    thrusts.push_back({*other, -sheet.towards(0.0)});
-    if (*other > first && !alike(first, *other)) std::swap(thrusts[0], thrusts[1]);
+  const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
+  std::array<std::optional<double>, 2> sides;  // the second of an arch at x < 0
+  for (const JointWrench& joint : e.last.joints.wrenches) {
+    const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid);
+    if (bearer < 0) continue;
+    const Vec3 outward = sheet.outward(joint.centroid).value();
+    std::optional<double>& side = sides[arch && outward.dot(sheet.towards(0.0)) < 0.0 ? 1 : 0];
+    side = side.value_or(0.0) + outward.dot(wrench_on(joint, bearer).force);
   }
+  const auto thrust = [&](double force, const Vec3& towards) {
+    return Thrust{above(force, e.last.joints.floor.force), arch ? std::optional(towards) : std::nullopt};
+  };
+  std::vector<Thrust> thrusts{thrust(sides[0].value_or(0.0), sheet.towards(0.0))};
+  if (!sides[1]) return thrusts;
+  thrusts.push_back(thrust(*sides[1], -sheet.towards(0.0)));
+  if (thrusts[1].force > thrusts[0].force && !alike(thrusts[0].force, thrusts[1].force))
+    std::swap(thrusts[0], thrusts[1]);
   return thrusts;
 }
 

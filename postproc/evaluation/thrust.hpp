@@ -7,11 +7,10 @@
 
 namespace cupola {
 
-/// The uppermost sheets of the stacks that push outwards, the last first: walls have no outside.
+/// Of each stack the uppermost sheet that has an outside, as walls have not; the last stack first.
 std::vector<const Sheet*> pushing_sheets(const Evaluation& evaluation);
 
-/// The cut under the lowest course of the stack of a sheet. Its radial_thrust is the thrust of the stack, of
-/// an arch at x > 0 in its own frame.
+/// The cut under the lowest course of the stack of a sheet.
 const RingSum& base_of(const Evaluation& evaluation, const Sheet& sheet);
 
 /// The outward thrust of a stack, of an arch at one springing.

@@ -105,6 +105,15 @@ const RingSum* springing_of(const Evaluation& e, const Sheet& sheet) {
   return lowest < none ? &e.rings[lowest] : nullptr;
 }
 
+/// ", and at supports of higher courses", as of walls that hold the edges of a vault; "" without.
+const char* higher_text(const Evaluation& e, const Sheet& sheet) {
+  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  const bool higher = std::ranges::any_of(e.reactions, [&, first = first, end = end](const Reaction& r) {
+    return r.ring > first && r.ring < end;
+  });
+  return higher && sheet.thrust_lines != Sheet::ThrustLines::one ? ", and at supports of higher courses" : "";
+}
+
 std::string at_level(const std::string& name, const RingSum& cut) {
   constexpr double kShown = 1e-4;  // m
   return fmt::format("at the {}, z = {:g} m", name, std::round(cut.height / kShown) * kShown + 0.0);
@@ -114,9 +123,10 @@ std::string at_level(const std::string& name, const RingSum& cut) {
 /// of an arch are counted from one side: where the sides differ, the other value is not known.
 std::string level_text(const Evaluation& e, const Sheet& sheet, bool differ) {
   const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
-  if (springing == &base) return at_level("springing", base);
-  if (!springing || differ) return at_level("base", base);
-  return fmt::format("{}; {}, {}", at_level("base", base), at_level("springing", *springing),
+  const std::string at_base =
+      at_level(springing == &base ? "springing" : "base", base) + higher_text(e, sheet);
+  if (!springing || springing == &base || differ) return at_base;
+  return fmt::format("{}; {}, {}", at_base, at_level("springing", *springing),
                      force_text(springing->radial_thrust));
 }
 
@@ -176,7 +186,7 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
     const RingSum& base = base_of(e, *pushing.front());
     std::string level = springing_of(e, *pushing.front()) == &base ? "springing" : "base";
     if (side.towards) level += " towards " + direction_text(*side.towards);
-    detail += "; " + at_level(level, base);
+    detail += "; " + at_level(level, base) + higher_text(e, *pushing.front());
   }
   if (least(range) < 0.0) {
     detail += "; inwards where negative";

@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/case/bundled.hpp"
+#include "assembly/case/case_reader.hpp"
+#include "postproc/evaluation/thrust.hpp"
 #include "postproc/tables/shell_map.hpp"
 #include "tests/pipeline/static_run.hpp"
 
@@ -124,6 +127,27 @@ TEST(MembersSideBySide, DomesHaveLinesAboutTheirOwnAxes) {
     ASSERT_EQ(maps[i + 2].boxes.size(), maps[i].boxes.size());
     for (size_t b = 0; b < maps[i].boxes.size(); ++b)
       EXPECT_NEAR(std::remainder(maps[i + 2].boxes[b].from - maps[i].boxes[b].from, 360.0), 0.0, 1e-9);
+  }
+}
+
+// Of walls that hold the edges of a vault, and of two barrels that meet in a mitre, each on supports alone:
+// the thrust is the sum of `outward_force_N` in reactions.csv, of a barrel on each side.
+TEST(Members, TheThrustIsThatOfTheReactions) {
+  for (const char* name : {"/sail_vault.yaml", "/barrels_corner.yaml"}) {
+    const ProgramFolder folder;
+    const Evaluation e = solve_and_evaluate(read_case(bundled_folder() + name), folder);
+    for (const Sheet* sheet : pushing_sheets(e))
+      for (const Thrust& thrust : thrusts_of(e, *sheet)) {
+        const auto [first, end] = e.assembly.stack_of(sheet->first_ring);
+        double sum = 0.0;
+        for (const Reaction& r : e.reactions) {
+          const Vec3 from_axis = e.assembly.blocks[r.block].centroid - sheet->origin;
+          if (r.ring >= first && r.ring < end && (!thrust.towards || thrust.towards->dot(from_axis) > 0.0))
+            sum += r.outward;
+        }
+        EXPECT_GT(sum, 1e4) << name;  // N
+        EXPECT_NEAR(thrust.force, sum, 1e-12 * e.summary.weight_N) << name << ": rounding of the sums";
+      }
   }
 }
 

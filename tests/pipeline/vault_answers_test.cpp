@@ -300,6 +300,9 @@ TEST(VaultAnswers, TheRangeOfAThrustCountsSupportsAndOtherMembers) {
   // The sides differ by the bonds of the lunettes: their reactions by 1e-4. Without the lunettes 8 % are
   // missing.
   EXPECT_NEAR(range.chosen.value(), thrust, 1e-3 * thrust);
+  const std::vector<Thrust> thrusts = thrusts_of(e, e.assembly.sheets.back());
+  ASSERT_EQ(thrusts.size(), 2u);
+  for (const Thrust& side : thrusts) EXPECT_NEAR(side.force, thrust, 1e-3 * thrust);
 }
 
 /// A barrel of half a circle with a radius of 2 m on walls 1 m high that are part of it, under a fill.

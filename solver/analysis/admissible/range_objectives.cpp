@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/thrust_joint.hpp"
 #include "solver/analysis/admissible/base_blocks.hpp"
 
 namespace cupola {
@@ -38,9 +39,6 @@ class Objectives {
   /// Force of the blocks on their supports along a direction that depends on the joint.
   template <class Direction>
   ForceFunctional on_supports(const std::set<int>& blocks, const Direction& direction) const;
-  /// Adds the force of the blocks of course `first` on blocks of other stacks, on which they stand.
-  template <class Direction>
-  void add_on_other_stacks(int first, const Direction& direction, ForceFunctional* f) const;
   ForceFunctional weight_of(const std::set<int>& blocks, double factor) const;
   /// Ties without those of the restraints, which follow them: a tie and a strut each.
   int num_ties() const { return static_cast<int>(scene_.model.ties.size()) - 2 * num_restraints(); }
@@ -89,16 +87,6 @@ ForceFunctional Objectives::on_supports(const std::set<int>& blocks, const Direc
   return f;
 }
 
-template <class Direction>
-void Objectives::add_on_other_stacks(int first, const Direction& direction, ForceFunctional* f) const {
-  const auto ring = [this](int block) { return scene_.assembly.blocks[block].ring; };
-  for (const auto& [key, pair] : scene_.joints.pairs()) {
-    const auto [lower, block] = ring(key.first) < ring(key.second) ? key : std::pair(key.second, key.first);
-    if (!scene_.fixed(lower) && !scene_.fixed(block) && ring(lower) < first && ring(block) == first)
-      scene_.add(pair, lower, direction(pair.centroid, block), f);
-  }
-}
-
 ForceFunctional Objectives::weight_of(const std::set<int>& blocks, double factor) const {
   return on_supports(blocks, [factor](const Vec3&, int) { return Vec3(factor * kDown); });
 }
@@ -116,18 +104,15 @@ std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
   const Sheet* vault = assembly.vault_of(-1);
   const Sheet last = vault ? *vault : Sheet{};
   const bool is_arch = last.thrust_lines == Sheet::ThrustLines::one;
-  const auto direction = [&](const Vec3& point, int block) -> Vec3 {
-    const Vec3 outward = scene_.joints.outward(point, block);
-    return is_arch && outward.dot(last.towards(0.0)) < 0.0 ? Vec3::Zero() : outward;  // one springing
-  };
-  std::set<int> blocks = base_blocks();
-  const std::pair rings = assembly.stack_of(last.first_ring);  // all, of imported blocks without courses
-  std::erase_if(blocks, [&](int block) {
-    const int ring = std::max(assembly.blocks[block].ring, 0);
-    return ring < rings.first || (ring > 0 && ring >= rings.second);
-  });
-  ForceFunctional f = on_supports(blocks, direction);
-  add_on_other_stacks(rings.first, direction, &f);
+  ForceFunctional f = scene_.zero();
+  for (const auto& [key, pair] : scene_.joints.pairs()) {
+    const JointKind kind = scene_.contacts.patches[scene_.contacts.points[pair.contacts.front()].patch].kind;
+    const int bearer = bearer_of_thrust(assembly, last, {key.first, key.second, kind, 0}, pair.centroid);
+    if (bearer < 0) continue;
+    const Vec3 outward = scene_.joints.outward(pair.centroid, bearer == key.first ? key.second : key.first);
+    const bool other_springing = is_arch && outward.dot(last.towards(0.0)) < 0.0;
+    if (!other_springing) scene_.add(pair, bearer, outward, &f);
+  }
   return {{"thrust", "N", std::move(f), {}, {}}};
 }
 

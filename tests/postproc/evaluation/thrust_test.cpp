@@ -41,6 +41,76 @@ TEST(Thrust, OfAStateOfAConicSolverDependsOnNoStiffness) {
       << thrust_answer(e)->detail;
 }
 
+/// A joint at x that pushes on its lower block, of smaller number, along x.
+JointWrench pushing(int lower, int upper, double x, double force) {
+  JointWrench joint;
+  joint.block_a = lower;
+  joint.block_b = upper;
+  joint.centroid = {x, 0, 0};
+  joint.wrench.force = {-force, 0, 0};  // on the upper block
+  return joint;
+}
+
+Block in_course(int ring) {
+  Block block;
+  block.ring = ring;
+  block.fixed = ring < 0;
+  return block;
+}
+
+/// Two half arches of two courses each, blocks 3 to 6, on a wall (block 1) at x > 0 and a support (block 0) at
+/// x < 0, which lean on a rib, block 2.
+Evaluation half_arches() {
+  Evaluation e;
+  for (const int ring : {-1, 0, 1, 2, 3, 4, 5}) e.assembly.blocks.push_back(in_course(ring));
+  e.assembly.num_rings = 6;
+  e.assembly.sheets = {
+      {.name = "wall", .first_ring = 0, .num_rings = 1},
+      {.name = "rib", .first_ring = 1, .num_rings = 1, .thrust_lines = Sheet::ThrustLines::one},
+      {.name = "half ribs", .first_ring = 2, .num_rings = 4, .thrust_lines = Sheet::ThrustLines::one}};
+  e.last.joints.wrenches = {pushing(1, 3, 2.0, 10.0),   // springing on the wall
+                            pushing(3, 4, 1.0, 7.0),    // within the arch
+                            pushing(2, 4, 0.1, -20.0),  // crown on the rib
+                            pushing(2, 5, -0.1, 21.0),  // and of the other half
+                            pushing(5, 6, -1.0, -7.0),
+                            pushing(0, 6, -2.0, -9.0)};  // springing on the support
+  e.rings.resize(6);
+  e.rings[2].blocks = 1;
+  return e;
+}
+
+// A crown that leans on another member is no springing: the push of each side is that of its feet.
+TEST(Thrust, OfBothSidesIsThatOfTheSpringings) {
+  const Evaluation e = half_arches();
+  const std::vector<Thrust> thrusts = thrusts_of(e, e.assembly.sheets.back());
+  ASSERT_EQ(thrusts.size(), 2u);
+  EXPECT_EQ(thrusts[0].force, 10.0);
+  EXPECT_EQ(thrusts[1].force, 9.0);
+  EXPECT_EQ(thrusts[1].towards, Vec3(-1, 0, 0));
+  EXPECT_EQ(outward_thrust(e), 10.0);
+}
+
+// Heads that meet in a mitre lean on each other: neither member stands on the other.
+TEST(Thrust, CountsNoMitre) {
+  Evaluation e = half_arches();
+  e.last.joints.wrenches.push_back(pushing(2, 3, 1.8, -3.0));
+  EXPECT_EQ(outward_thrust(e), 9.0) << "a rib under the springing";
+  e.last.joints.wrenches.back().kind = JointKind::head;
+  EXPECT_EQ(outward_thrust(e), 10.0);
+}
+
+// Walls that hold the edges of a vault are fixed blocks beside its higher courses.
+TEST(Thrust, CountsSupportsOfEveryCourse) {
+  Evaluation e;
+  for (const int ring : {-1, -1, 0, 1}) e.assembly.blocks.push_back(in_course(ring));
+  e.assembly.num_rings = 2;
+  e.assembly.sheets = {{.name = "vault", .num_rings = 2, .thrust_lines = Sheet::ThrustLines::by_azimuth}};
+  e.last.joints.wrenches = {pushing(0, 2, 3.0, -2.0), pushing(1, 3, 2.0, 50.0), pushing(2, 3, 2.5, 8.0)};
+  e.rings.resize(2);
+  e.rings[0].blocks = 1;
+  EXPECT_EQ(outward_thrust(e), 48.0);
+}
+
 TEST(Thrust, NeedsAnAxis) {
   EXPECT_FALSE(outward_thrust(stones(Sheet::ThrustLines::none)));
   Evaluation e = stones(Sheet::ThrustLines::none);
