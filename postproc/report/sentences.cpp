@@ -9,6 +9,7 @@
 #include "postproc/report/answers.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/report.hpp"
+#include "postproc/report/worst_joints.hpp"
 #include "postproc/tables/post_summary.hpp"
 
 namespace cupola {
@@ -57,8 +58,13 @@ std::string couple_text(const Evaluation& e, const PostSummary& s) {
 
 std::string friction_text(const Evaluation& e, const PostSummary& s) {
   const double use = s.largest_friction_use.value_or(0.0);
-  if (use == 0.0) return "Friction is not used: the tangential forces of all joints are negligible.";
   const auto& joints = e.last.joints.wrenches;
+  if (use == 0.0)
+    return std::ranges::any_of(joints, [&e](const JointWrench& j) { return uses_friction(e, j); })
+               ? "Friction only resists turning or opposes itself: the resultants of all joints are normal "
+                 "to "
+                 "them."
+               : "Friction is not used: the tangential forces of all joints are negligible.";
   const auto at_limit = std::count_if(joints.begin(), joints.end(),
                                       [](const JointWrench& j) { return j.friction_use > kSlides; });
   return at_limit > 0

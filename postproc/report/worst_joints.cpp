@@ -52,9 +52,9 @@ std::string at_rest_html(const Evaluation& e) {
                        on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
                        j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
   }
-  const bool ideal = std::all_of(
-      e.last.joints.wrenches.begin(), e.last.joints.wrenches.end(),
-      [](const JointWrench& j) { return j.negligible || (j.kern == 0.0 && j.friction_use == 0.0); });
+  const bool ideal = std::ranges::all_of(e.last.joints.wrenches, [&](const JointWrench& j) {
+    return j.negligible || (j.kern == 0.0 && !uses_friction(e, j));
+  });
   if (worst.edge && ideal)
     out = "<li>No joint is near sliding or opening: every force is normal to its joint and central.</li>\n";
   return list_html("Worst joints", out);
@@ -81,6 +81,17 @@ std::string moving_html(const Evaluation& e) {
 }
 
 }  // namespace
+
+bool uses_friction(const Evaluation& e, const JointWrench& joint) {
+  const ContactTable& c = e.last.frame.contacts;
+  if (joint.negligible) return false;
+  for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+    const int row = e.last.joints.contacts[i];
+    if (!e.last.joints.floor.hides(c.force[row] - c.force[row].dot(c.normal[row]) * c.normal[row]))
+      return true;
+  }
+  return joint.friction_use > 0.0;
+}
 
 WorstJoints worst_joints(const JointWrenches& joints) {
   // Joints of small forces say little about the structure: a hinge needs force.

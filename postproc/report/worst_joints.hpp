@@ -16,6 +16,9 @@ struct WorstJoints {
 };
 WorstJoints worst_joints(const JointWrenches& joints);
 
+/// True if a contact point of a joint bears a force across its normal, even if others balance it.
+bool uses_friction(const Evaluation& evaluation, const JointWrench& joint);
+
 /// The joints that slide and open the fastest in a mechanism, or the farthest in a motion in time.
 struct MovingJoints {
   struct Joint {

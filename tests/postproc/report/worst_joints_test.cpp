@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/report/report.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::worst_joints_test {
@@ -24,6 +25,28 @@ TEST(WorstJoints, GiveWayOnlyIfItFalls) {
   EXPECT_EQ(goes_on.find("gives way"), std::string::npos) << goes_on;
   EXPECT_NE(fallen.find("<strong>Where it gives way</strong>"), std::string::npos) << fallen;
   EXPECT_NE(goes_on.find("is open the widest"), std::string::npos) << goes_on;
+}
+
+// The lower corners of the beds push to and fro, so that the upper block only turns: their resultant is
+// central and normal.
+TEST(WorstJoints, FrictionThatOnlyResistsTurningIsUsed) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  const auto says = [&e](const char* text) {
+    std::string all = worst_joints_html(e);
+    for (const std::string& sentence : finding_sentences(e)) all += sentence;
+    return all.find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(says("every force is normal to its joint") && says("Friction is not used"));
+  const JointWrench& bed = e.last.joints.wrenches.back();
+  for (const int k : {0, 1}) {
+    Vec3& force = e.last.frame.contacts.force[e.last.joints.contacts[bed.contact_start + k]];
+    force.y() += (k == 0 ? 1e-3 : -1e-3) * bed.normal_force;
+  }
+  e.last.joints = joint_wrenches(e.assembly, e.last.frame.contacts, e.shell);
+  ASSERT_EQ(e.last.joints.wrenches.back().friction_use, 0.0);
+  EXPECT_FALSE(says("every force is normal to its joint"));
+  EXPECT_FALSE(says("Friction is not used"));
+  EXPECT_TRUE(says("the resultants of all joints are normal to them"));
 }
 
 }  // namespace
