@@ -63,8 +63,10 @@ OpenJoint open_joint(const ContactTable& c, const JointWrenches& joints, int num
     if (gap == 0.0) continue;
     const Eigen::Vector2d at = place(row);
     open.widest = std::max(open.widest, gap);
-    if (at.y() <= low.y() + kEdge * open.depth) open.inner = std::max(open.inner, gap);
-    if (at.y() >= high.y() - kEdge * open.depth) open.outer = std::max(open.outer, gap);
+    if (open.course != CrackCourse::layers) {  // which end at no face
+      if (at.y() <= low.y() + kEdge * open.depth) open.inner = std::max(open.inner, gap);
+      if (at.y() >= high.y() - kEdge * open.depth) open.outer = std::max(open.outer, gap);
+    }
     from = std::min(from, at.x());
     to = std::max(to, at.x());
   }

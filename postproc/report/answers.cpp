@@ -130,6 +130,24 @@ bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
 
+/// ", the widest 25 as 12 cracks over 14 m, none through the shell": hairlines form no crack.
+std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
+  if (cracks.empty()) return "";
+  size_t joints = 0;
+  double length = 0.0;
+  for (const ShellCrack& crack : cracks) {
+    joints += crack.joints.size();
+    length += crack.length;
+  }
+  const std::string text = fmt::format(
+      ", {}as {} {}", joints < open_joints ? fmt::format("the widest {} ", joints) : "",
+      counted(cracks.size(), "crack"), length > 0.0 ? "over " + length_text(length) : "at single points");
+  if (std::ranges::all_of(cracks, [](const ShellCrack& c) { return c.course == CrackCourse::layers; }))
+    return text;  // which have no faces to reach
+  const auto through = std::ranges::count_if(cracks, &ShellCrack::through);
+  return fmt::format("{}, {} through the shell", text, through == 0 ? "none" : std::to_string(through));
+}
+
 }  // namespace
 
 VerdictWords words_of_run(const Summary& summary) {
@@ -199,21 +217,16 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
     return KeyNumber{
         "Widest crack", "none",
         fmt::format("no joint is open by more than {}", length_text(e.last.joints.floor.length))};
-  double total = 0.0;
-  for (const Crack& crack : cracks) total += crack.extent;
   const Crack& widest = *std::max_element(cracks.begin(), cracks.end(), [](const Crack& a, const Crack& b) {
     return a.widest_gap < b.widest_gap;
   });
   const JointWrench& joint = e.last.joints.wrenches[widest.joint];
-  const auto through = std::ranges::count_if(e.cracks, &ShellCrack::through);
-  return KeyNumber{
-      "Widest crack", length_text(widest.widest_gap),
-      fmt::format("in the {}joint between blocks {} and {}; {} open {}, as {}, {} through the shell",
-                  joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
-                  joint.block_a, joint.block_b,
-                  counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
-                  total > 0.0 ? "over " + length_text(total) + " in total" : "at single points",
-                  counted(e.cracks.size(), "crack"), through == 0 ? "none" : std::to_string(through))};
+  return KeyNumber{"Widest crack", length_text(widest.widest_gap),
+                   fmt::format("in the {}joint between blocks {} and {}; {} open{}",
+                               joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
+                               joint.block_a, joint.block_b,
+                               counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
+                               text_of_cracks(e.cracks, cracks.size()))};
 }
 
 std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& report) {

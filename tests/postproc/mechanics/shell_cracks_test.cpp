@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "postproc/figures/figures.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/shell_map.hpp"
 #include "tests/postproc/models.hpp"
@@ -139,6 +140,37 @@ TEST(ShellCracks, DoNotRunAlongACourse) {
       Vault({{{0, 1}, {2e-3, 4e-3}}, {{0, 2}, {2e-3, 4e-3}}, {{3, 6}, {7e-5, 7e-5}}}).cracks();
   ASSERT_EQ(cracks.size(), 2u);
   EXPECT_EQ(cracks[0].joints.size(), 1u);
+}
+
+// A gap between two leaves is within the thickness: at neither face, nor through it.
+TEST(ShellCracks, BetweenLayersReachNoFace) {
+  Vault vault(two_cracks());
+  for (JointWrench& joint : vault.evaluation().last.joints.wrenches)
+    if (joint.kind == JointKind::head) joint.kind = JointKind::wythe;
+  for (const ShellCrack& crack : vault.cracks()) {
+    EXPECT_EQ(crack.course, CrackCourse::layers);
+    EXPECT_GT(crack.width, 0.0);
+    EXPECT_EQ(crack.width_inner, 0.0);
+    EXPECT_EQ(crack.width_outer, 0.0);
+    EXPECT_FALSE(crack.through);
+  }
+}
+
+// Cracks and open joints are counted alike on the first screen: the hairline is in no crack.
+TEST(ShellCracks, TheFirstScreenTellsHairlinesFromCracks) {
+  std::map<std::pair<int, int>, Gap> gaps = two_cracks();
+  const auto said = [&gaps] {
+    Vault vault(gaps);
+    Evaluation& e = vault.evaluation();
+    e.last.frame.role = FrameRole::equilibrium;
+    e.summary.status = Status::stable;
+    e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
+    e.cracks = vault.cracks();
+    return crack_answer(e).value().detail;
+  };
+  EXPECT_NE(said().find("; 6 joints are open, as 2 cracks over 1"), std::string::npos) << said();
+  gaps[{3, 6}] = {7e-5, 7e-5};
+  EXPECT_NE(said().find("; 7 joints are open, the widest 6 as 2 cracks over 1"), std::string::npos) << said();
 }
 
 /// The unrolled vault, each block as long as its head joints are apart.
