@@ -33,6 +33,7 @@ class ComingToRest : public ProximalPoint {
   double rounding_of_impulses(double reference_speed) const;
   bool shorten_step() override;
   void adapt(double contraction) override;
+  bool may_be_moving(double contraction) const override;
   std::optional<StaticSolution> judge_motion(double contraction) override;
   bool accepts(const StaticSolution& trial) const override;
   StaticSolution give_up(int num_solves) override;

@@ -52,7 +52,9 @@ class ProximalPoint {
   virtual bool shorten_step() = 0;
   /// Adapts the step to the contraction of the last iteration.
   virtual void adapt(double contraction) = 0;
-  /// The verdict on a scene whose last iteration left the residual above half of the one before. None: go on.
+  /// True where the verdict on a motion is to be sought.
+  virtual bool may_be_moving(double contraction) const { return contraction > kNoProgress; }
+  /// That verdict. None: go on.
   virtual std::optional<StaticSolution> judge_motion(double contraction) = 0;
   /// The last iterate becomes the start of the next one. Returns by how much it reduced the residual.
   virtual double advance();
