@@ -20,4 +20,8 @@ int laying_course(const Assembly& assembly, const Block& block) {
                   laying_course(assembly, block.ring + block.num_rings - 1));
 }
 
+bool is_held(const Assembly& assembly, const Block& block, int course, int hold_below) {
+  return !block.fixed && hold_below >= 0 && laying_course(assembly, block) < course - hold_below;
+}
+
 }  // namespace cupola

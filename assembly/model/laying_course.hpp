@@ -11,4 +11,8 @@ int laying_course(const Assembly& assembly, int ring);
 /// The same for a block, which is laid with the first ring that it occupies.
 int laying_course(const Assembly& assembly, const Block& block);
 
+/// True for a block that counts as a support where `course` is laid and only `hold_below` courses below it are
+/// solved. Supports of the case are not meant; -1: no block is held.
+bool is_held(const Assembly& assembly, const Block& block, int course, int hold_below);
+
 }  // namespace cupola

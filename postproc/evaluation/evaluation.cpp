@@ -1,6 +1,7 @@
 #include "postproc/evaluation/evaluation.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -16,6 +17,7 @@
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/evaluation/sections.hpp"
 #include "postproc/mechanics/plane_contacts.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 
 namespace cupola {
 namespace {
@@ -217,34 +219,28 @@ std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   return loads;
 }
 
-/// Per block, true if a frame leaves it out. Of a construction: blocks not laid yet, and courses held as
-/// supports; neither rests on a joint of the frame. Of an equilibrium of some parts: the others. Empty if
-/// none.
-std::vector<bool> blocks_left_out(const Evaluation& e, const FrameEvaluation& shown) {
-  const bool some_parts = shown.frame.role == FrameRole::equilibrium && !e.summary.parts.empty();
-  if (!is_stage(shown.frame.role) && !some_parts) return {};
+/// Of the joints of an equilibrium of some parts: blocks of the others.
+std::vector<bool> beside_standing_parts(const Evaluation& e, const JointWrenches& joints) {
   std::vector<bool> left_out(e.assembly.blocks.size(), true);
-  if (some_parts) {
-    const std::vector<int> part_of = connected_parts(e.assembly, shown.joints);
-    for (const PartVerdict& part : e.summary.parts)
-      for (size_t b = 0; b < left_out.size() && stands(part.status); ++b)
-        if (part_of[b] == part_of[part.first_block]) left_out[b] = false;
-    return left_out;
-  }
-  for (const JointWrench& joint : shown.joints.wrenches)
-    if (joint.upper >= 0) left_out[joint.upper] = false;
+  const std::vector<int> part_of = connected_parts(e.assembly, joints);
+  for (const PartVerdict& part : e.summary.parts)
+    for (size_t b = 0; b < left_out.size() && stands(part.status); ++b)
+      if (part_of[b] == part_of[part.first_block]) left_out[b] = false;
   return left_out;
+}
+
+/// Per block, true if a frame leaves it out; empty if it has all.
+std::vector<bool> left_out_of(const Evaluation& e, const FrameEvaluation& shown) {
+  if (shown.frame.role == FrameRole::equilibrium && !e.summary.parts.empty())
+    return beside_standing_parts(e, shown.joints);
+  return blocks_left_out(e.assembly, shown.frame, e.scene.analysis.staged.hold_below);
 }
 
 /// Loads on blocks that a frame leaves out. A stage bears loads other than weight once all blocks are laid.
 void leave_out_loads(const Evaluation& e, FrameEvaluation* shown) {
-  const std::vector<bool> left_out = blocks_left_out(e, *shown);
-  const bool stage = is_stage(shown->frame.role), holds = e.scene.analysis.staged.hold_below >= 0;
-  bool complete = true;
-  for (size_t i = 0; i < left_out.size() && stage; ++i) {
-    const Block& block = e.assembly.blocks[i];
-    if (left_out[i] && !block.fixed && !(holds && block.ring <= shown->frame.time)) complete = false;
-  }
+  const std::vector<bool> left_out = left_out_of(e, *shown);
+  const bool complete = !is_stage(shown->frame.role) ||
+                        std::ranges::all_of(laid_blocks(e.assembly, shown->frame), std::identity{});
   std::erase_if(shown->loads, [&](const PointForce& load) {
     return !complete || (!left_out.empty() && left_out[load.block]);
   });
@@ -256,9 +252,9 @@ void evaluate_cuts(const std::vector<bool>& left_out, Evaluation* e) {
   const Assembly placed = placed_assembly({e->assembly, e->last.poses.of_block, {}});
   e->sections = evaluate_sections(*e, placed, left_out);
   for (const CutPlane& plane : asked.planes) {
-    PlaneCut cut =
-        plane_cut(plane, e->assembly, e->last.joints, e->last.gravity, e->last.loads, e->last.frame.ties);
-    cut.polygons = cut_by_plane(placed, {cut.normal, cut.normal.dot(cut.point)});
+    PlaneCut cut = plane_cut(plane, e->assembly, e->last.joints, e->last.gravity, e->last.loads,
+                             e->last.frame.ties, left_out);
+    cut.polygons = cut_by_plane(placed, {cut.normal, cut.normal.dot(cut.point)}, left_out);
     e->planes.push_back(std::move(cut));
   }
 }
@@ -366,7 +362,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
         "wrenches on blocks count the forces of joints only, thrust lines those of joints and ties");
 
   e.last = evaluate_frame(e, std::move(shown));
-  const std::vector<bool> left_out = blocks_left_out(e, e.last);
+  const std::vector<bool> left_out = left_out_of(e, e.last);
   e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   warn_of_props(&e);

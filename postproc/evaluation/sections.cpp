@@ -102,11 +102,8 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Asse
   const ThrustInput input = thrust_input(e, e.last);
   std::vector<SectionEvaluation> sections;
   for (const double height : e.scene.postproc.sections) {
-    SectionEvaluation section{height, {}, cut_by_plane(placed, {Vec3::UnitZ(), height}), {}};
-    if (!left_out.empty()) {
-      std::erase_if(section.polygons, [&](const CutPolygon& p) { return left_out[p.block]; });
-      if (section.polygons.empty()) continue;
-    }
+    SectionEvaluation section{height, {}, cut_by_plane(placed, {Vec3::UnitZ(), height}, left_out), {}};
+    if (!left_out.empty() && section.polygons.empty()) continue;
     for (const auto& [bed, downwards] : nearest_beds(e, placed, height)) {
       section.beds.push_back(bed);
       add_resultants(e, input, bed, downwards, &section.resultants);

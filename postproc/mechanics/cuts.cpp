@@ -9,12 +9,14 @@
 
 namespace cupola {
 
-std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane) {
+std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane,
+                                     const std::vector<bool>& left_out) {
   CUPOLA_ASSERT(std::abs(plane.normal.norm() - 1.0) < 1e-9);
   std::vector<CutPolygon> polygons;
   std::vector<Vec3> crossings;
   for (size_t p = 0; p < assembly.parts.size(); ++p) {
     const Part& part = assembly.parts[p];
+    if (!left_out.empty() && left_out[part.block]) continue;
     crossings.clear();
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       const auto face = assembly.face(f);

@@ -12,8 +12,10 @@ struct CutPolygon {
   std::vector<Vec3> outline;  ///< m
 };
 
-/// Outlines of all parts that a plane cuts. Parts that the plane only touches are left out.
-std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane);
+/// Outlines of all parts that a plane cuts. Parts that the plane only touches are left out, and those
+/// of blocks in `left_out`.
+std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plane,
+                                     const std::vector<bool>& left_out = {});
 
 /// Force of one ring across a meridian half-plane: the component along the ring that the blocks on the side
 /// of greater azimuth receive from the others, compression positive.

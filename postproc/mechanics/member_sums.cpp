@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "postproc/mechanics/ring_sums.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 
 namespace cupola {
 
@@ -21,14 +22,14 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
   };
   for (size_t i = 0; i < assembly.blocks.size(); ++i) {
     const Block& block = assembly.blocks[i];
-    if (block.fixed || (!left_out.empty() && left_out[i])) continue;
+    if (!takes_part(assembly, static_cast<int>(i), left_out)) continue;
     MemberSum& sum = at(block.ring, block.member);
     ++sum.blocks;
     sum.weight += block.mass * g;
   }
   for (const JointWrench& joint : joints.wrenches) {
-    const int ring_a = ring_above_support(assembly.blocks[joint.block_a]);
-    const int ring_b = ring_above_support(assembly.blocks[joint.block_b]);
+    const int ring_a = ring_above_support(assembly, joint.block_a, left_out);
+    const int ring_b = ring_above_support(assembly, joint.block_b, left_out);
     if (ring_a == ring_b) continue;
     const int upper = ring_a > ring_b ? joint.block_a : joint.block_b;
     const Vec3 force = wrench_on(joint, upper).force;

@@ -2,6 +2,7 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 
 namespace cupola {
 
@@ -12,17 +13,18 @@ Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWren
 }
 
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
-                   const Vec3& gravity, const std::vector<PointForce>& loads, const TieTable& ties) {
+                   const Vec3& gravity, const std::vector<PointForce>& loads, const TieTable& ties,
+                   const std::vector<bool>& left_out) {
   PlaneCut cut;
   cut.name = plane.name;
   cut.point = cut.across.point = plane.point;
   CUPOLA_ASSERT(plane.normal.norm() > 0.0);
   cut.normal = plane.normal.normalized();
-  cut.polygons = cut_by_plane(assembly, {cut.normal, cut.normal.dot(cut.point)});
 
+  const auto is_free = [&](int block) { return takes_part(assembly, block, left_out); };
   std::vector<bool> beyond(assembly.blocks.size());
   for (size_t b = 0; b < beyond.size(); ++b) {
-    beyond[b] = !assembly.blocks[b].fixed && cut.is_beyond(assembly.blocks[b].centroid);
+    beyond[b] = is_free(static_cast<int>(b)) && cut.is_beyond(assembly.blocks[b].centroid);
     if (beyond[b]) cut.load_beyond += assembly.blocks[b].mass * gravity;
   }
   for (const PointForce& load : loads)
@@ -33,7 +35,7 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
     const int a = joint.block_a, b = joint.block_b;
     if (beyond[a] == beyond[b]) continue;
     const Wrench wrench = wrench_on(joint, beyond[b] ? b : a);
-    if (assembly.blocks[a].fixed || assembly.blocks[b].fixed) {
+    if (!is_free(a) || !is_free(b)) {
       cut.from_supports += wrench.force;
     } else {
       cut.across.add(wrench);
@@ -44,7 +46,7 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
     const int a = ties.block_a[i], b = ties.block_b[i];
     if (beyond[a] == beyond[b]) continue;
     const Vec3 force = beyond[b] ? tie_force_on_b(ties, i) : Vec3(-tie_force_on_b(ties, i));
-    (assembly.blocks[a].fixed || assembly.blocks[b].fixed ? cut.from_supports : cut.from_ties) += force;
+    (is_free(a) && is_free(b) ? cut.from_ties : cut.from_supports) += force;
   }
   if (cut.load_beyond.norm() > 0.0)
     cut.relative_difference =

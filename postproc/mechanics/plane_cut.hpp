@@ -12,7 +12,7 @@ namespace cupola {
 /// A plane through the model and the forces that its two sides exert on each other.
 ///
 /// A block counts for the side on which its centroid lies, so the cut follows the joints. The blocks "beyond"
-/// are the free blocks on the side to which the normal points.
+/// are the free blocks on the side to which the normal points; those that a stage leaves out are supports.
 struct PlaneCut {
   std::string name;
   Vec3 point = Vec3::Zero();          ///< m
@@ -28,8 +28,10 @@ struct PlaneCut {
   bool is_beyond(const Vec3& x) const { return normal.dot(x - point) > 0.0; }
 };
 
+/// Without the polygons. `left_out`: as in ring_sums().
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
-                   const Vec3& gravity, const std::vector<PointForce>& loads, const TieTable& ties = {});
+                   const Vec3& gravity, const std::vector<PointForce>& loads, const TieTable& ties = {},
+                   const std::vector<bool>& left_out = {});
 
 /// The force of a joint across the plane on the block beyond.
 Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint);

@@ -7,11 +7,16 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 
 namespace cupola {
 
 int ring_above_support(const Block& block) {
   return block.fixed ? -1 : std::max(block.ring, 0);
+}
+
+int ring_above_support(const Assembly& assembly, int block, const std::vector<bool>& left_out) {
+  return takes_part(assembly, block, left_out) ? ring_above_support(assembly.blocks[block]) : -1;
 }
 
 namespace {
@@ -25,19 +30,15 @@ void accumulate_downwards(const Assembly& assembly, std::vector<RingSum>* rings)
 
 void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<PointForce>& loads,
                const std::vector<bool>& left_out, std::vector<RingSum>* rings) {
-  const auto counts = [&](size_t b) {
-    return !assembly.blocks[b].fixed && (left_out.empty() || !left_out[b]);
-  };
   for (size_t b = 0; b < assembly.blocks.size(); ++b) {
-    if (!counts(b)) continue;
-    RingSum& ring = (*rings)[ring_above_support(assembly.blocks[b])];
-    ring.load_above += assembly.blocks[b].mass * gravity;
-    ++ring.blocks;
+    const int k = ring_above_support(assembly, static_cast<int>(b), left_out);
+    if (k < 0) continue;
+    (*rings)[k].load_above += assembly.blocks[b].mass * gravity;
+    ++(*rings)[k].blocks;
   }
-  for (const PointForce& load : loads) {
-    if (!counts(static_cast<size_t>(load.block))) continue;
-    (*rings)[ring_above_support(assembly.blocks[load.block])].load_above += load.force;
-  }
+  for (const PointForce& load : loads)
+    if (const int k = ring_above_support(assembly, load.block, left_out); k >= 0)
+      (*rings)[k].load_above += load.force;
   accumulate_downwards(assembly, rings);
 }
 
@@ -46,7 +47,7 @@ void add_loads(const Assembly& assembly, const Vec3& gravity, const std::vector<
 /// q + 1, and the changes are summed from the base upwards. A joint between two stacks crosses all cuts below
 /// each of its blocks.
 void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, const TieTable& ties,
-                      std::vector<RingSum>* rings) {
+                      const std::vector<bool>& left_out, std::vector<RingSum>* rings) {
   std::vector<Vec3> change(rings->size(), Vec3::Zero());
   const auto add_to_cuts = [&](int from, int to, const Vec3& force) {
     change[from] += force;
@@ -54,8 +55,8 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
       change[to + 1] -= force;
   };
   const auto add = [&](int block_a, int block_b, const Vec3& force_on_b) {
-    const int a = ring_above_support(assembly.blocks[block_a]),
-              b = ring_above_support(assembly.blocks[block_b]);
+    const int a = ring_above_support(assembly, block_a, left_out),
+              b = ring_above_support(assembly, block_b, left_out);
     if (a == b) return;
     const Vec3 on_upper = b > a ? force_on_b : Vec3(-force_on_b);
     const int lower = std::min(a, b), upper = std::max(a, b), base = assembly.stack_of(upper).first;
@@ -152,7 +153,7 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
   if (rings.empty()) return rings;
   for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
   add_loads(assembly, gravity, loads, left_out, &rings);
-  add_joint_forces(assembly, joints, ties, &rings);
+  add_joint_forces(assembly, joints, ties, left_out, &rings);
   add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
     if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring};

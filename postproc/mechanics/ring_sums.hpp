@@ -10,6 +10,9 @@ namespace cupola {
 /// The first ring of a block; -1 for a support, below all rings. Imported blocks without rings are in ring 0.
 int ring_above_support(const Block& block);
 
+/// The same; a block that is left out is a support, too.
+int ring_above_support(const Assembly& assembly, int block, const std::vector<bool>& left_out);
+
 /// The cut below ring k: forces of all other blocks on the blocks whose first ring is k or higher, against
 /// the weight of these blocks and the loads on them.
 struct RingSum {

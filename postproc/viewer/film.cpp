@@ -1,12 +1,11 @@
 #include "postproc/viewer/film.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include <Eigen/Geometry>
 
-#include "assembly/model/laying_course.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 
 namespace cupola {
 namespace {
@@ -66,21 +65,11 @@ void Film::add(size_t index, const FrameEvaluation& frame) {
   }
 }
 
-/// The time of a stage is its ring, or a fraction less while the course is open. Of an open course the
-/// blocks that have contacts are laid.
 void Film::add_births(const Frame& frame) {
-  const Assembly& assembly = evaluation_.assembly;
-  const std::vector<Block>& blocks = assembly.blocks;
-  const int unborn = std::numeric_limits<int>::max(), ring = static_cast<int>(std::ceil(frame.time));
-  const int complete = laying_course(assembly, ring) + (frame.time == ring ? 1 : 0);  // courses
-  born_.resize(blocks.size(), unborn);
-  const auto lay = [&](int block) { born_[block] = std::min(born_[block], num_frames()); };
-  for (int block = 0; block < static_cast<int>(blocks.size()); ++block)
-    if (laying_course(assembly, blocks[block]) < complete) lay(block);
-  for (int i = 0; i < frame.contacts.size(); ++i) {
-    lay(frame.contacts.block_a[i]);
-    lay(frame.contacts.block_b[i]);
-  }
+  const std::vector<bool> laid = laid_blocks(evaluation_.assembly, frame);
+  born_.resize(laid.size(), std::numeric_limits<int>::max());
+  for (size_t block = 0; block < laid.size(); ++block)
+    if (laid[block]) born_[block] = std::min(born_[block], num_frames());
 }
 
 void Film::add_poses(const Frame& frame) {

@@ -47,8 +47,8 @@ BuildingSite::BuildingSite(const Case& the_case, const Assembly& of_it)
 }
 
 bool BuildingSite::is_held(int block, int ring) const {
-  const int below = scene.analysis.staged.hold_below;
-  return assembly.blocks[block].fixed || (below >= 0 && course[block] < ring - below);
+  const Block& at = assembly.blocks[block];
+  return at.fixed || cupola::is_held(assembly, at, ring, scene.analysis.staged.hold_below);
 }
 
 Model stage_model(const BuildingSite& site, const BuiltState& state, const std::optional<double>& trial) {

@@ -281,6 +281,43 @@ TEST(Evaluation, LimitAnalysisIsEvaluatedAtItsThickness) {
   EXPECT_TRUE(e.warnings.empty()) << "the results belong to the assembly as generated";
 }
 
+Evaluation staged_column(const Assembly& a, Frame stage, double time, const Case& scene) {
+  stage.time = time;
+  Summary summary = column_summary(a);
+  summary.analysis = AnalysisType::staged;
+  return evaluated(a, {stage}, summary, scene, test::fresh_folder("results"));
+}
+
+// Springers of an arch on skewbacks have joints without an upper block.
+TEST(Evaluation, AStageHasTheBlocksThatAreTheUpperOnesOfNoJoint) {
+  const Assembly a = test::column(3);
+  Case scene = column_case();
+  scene.loads.forces = {{BlockRef{3}, a.blocks[3].centroid, Vec3(0, 0, -kBlockWeight), {}}};
+  Frame frame = test::column_at_rest(a, kGravity, kBlockWeight, 0.6, 0.4);
+  for (JointKind& kind : frame.contacts.kind) kind = JointKind::other;
+  const Evaluation e = staged_column(a, frame, 2.0, scene);
+  ASSERT_EQ(e.last.loads.size(), 1u) << "the structure is complete";
+  EXPECT_NEAR(e.rings[0].load_above.z(), -4.0 * kBlockWeight, 1e-12 * kBlockWeight);
+  for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14) << ring.ring;
+}
+
+// Of an arch of three stones the third is the springer of the other haunch, laid and held with the first.
+TEST(Evaluation, AStageOfAnArchStandsOnBothHaunchesThatItHolds) {
+  Assembly a = test::column(3);
+  a.sheets = {{.name = "arch", .num_rings = 3, .thrust_lines = Sheet::ThrustLines::one}};
+  Case scene = column_case();
+  scene.analysis.staged.hold_below = 0;
+  scene.loads.forces = {{BlockRef{2}, a.blocks[2].centroid, Vec3(0, 0, -kBlockWeight), {}}};
+  Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);  // block 3 presses on block 2
+  for (int i = 0; i < frame.contacts.size(); ++i)
+    if (frame.contacts.block_b[i] == 2) frame.contacts.force[i].z() += 0.25 * kBlockWeight;
+  const Evaluation e = staged_column(a, frame, 1.0, scene);
+  ASSERT_EQ(e.last.loads.size(), 1u) << "the far haunch is laid";
+  EXPECT_EQ(e.rings[0].blocks + e.rings[2].blocks, 0) << "held";
+  EXPECT_NEAR(e.rings[1].load_above.z(), -2.0 * kBlockWeight, 1e-12 * kBlockWeight);
+  EXPECT_LT(e.rings[1].relative_difference, 1e-14) << "the far haunch is a support";
+}
+
 // Stage of a construction: block 2 is laid on block 1, which is held; block 3 is not laid yet.
 TEST(Evaluation, AStageLeavesOutHeldBlocksAndBlocksNotLaidYet) {
   const Assembly a = test::column(3);
@@ -298,12 +335,11 @@ TEST(Evaluation, AStageLeavesOutHeldBlocksAndBlocksNotLaidYet) {
                       &ContactTable::area, &ContactTable::slip, &ContactTable::law_violation})
       (c.*list).push_back((all.*list)[i]);
   }
-  stage.time = 1.0;
-  Summary summary = column_summary(a);
-  summary.analysis = AnalysisType::staged;
   Case scene = column_case();
+  scene.analysis.staged.hold_below = 0;
   scene.loads.forces = {{BlockRef{2}, a.blocks[2].centroid, Vec3(0, 0, -500), {}}};
-  const Evaluation e = evaluated(a, {stage}, summary, scene, test::fresh_folder("results"));
+  scene.postproc.planes = {{"low", {0, 0, 0.2}, {0, 0, 1}}};
+  const Evaluation e = staged_column(a, stage, 1.0, scene);
   EXPECT_TRUE(e.last.loads.empty()) << "loads act once all blocks are laid";
   EXPECT_EQ(e.rings[0].blocks, 0);
   EXPECT_EQ(e.rings[1].blocks, 1);
@@ -313,6 +349,9 @@ TEST(Evaluation, AStageLeavesOutHeldBlocksAndBlocksNotLaidYet) {
   EXPECT_EQ(ring_table(e).rows.size(), 1u);
   ASSERT_EQ(e.sections.size(), 1u) << "at 0.8 m, through block 2";
   EXPECT_EQ(e.sections[0].beds, std::vector{1}) << "the only bed with forces";
+  ASSERT_EQ(e.planes.size(), 1u);
+  EXPECT_NEAR(e.planes[0].load_beyond.z(), -kBlockWeight, 1e-9 * kBlockWeight);
+  EXPECT_LT(e.planes[0].relative_difference, 1e-14);
   EXPECT_FALSE(post_summary(e).thrust_over_weight) << "nothing is known of the base";
 }
 
