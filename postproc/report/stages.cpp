@@ -1,6 +1,7 @@
 #include "postproc/report/stages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -14,6 +15,19 @@ namespace {
 
 using Least = StagedConstruction::Least;
 constexpr const char* kStands = "equilibrium";  // verdict of a stage
+
+/// m, mean height of the beds of a course. Its ring sum has none where the stage evaluated holds the course.
+double bed_height(const Shell& shell, int ring) {
+  double height = 0.0, area = 0.0;
+  for (const BedFacet& facet : shell.beds.at(static_cast<size_t>(ring))) {
+    if (facet.internal) continue;
+    const std::array outline{facet.intrados_a, facet.intrados_b, facet.extrados_b, facet.extrados_a};
+    const double share = polygon_area(outline);
+    height += share * polygon_centroid(outline).z();
+    area += share;
+  }
+  return area > 0.0 ? height / area : 0.0;
+}
 
 /// A curve over the stages; none if it has no values.
 std::optional<Figure> curve_over_stages(const std::vector<std::vector<double>>& points, const char* x_label,
@@ -124,7 +138,7 @@ StageReport report_stages(const Evaluation& e, Least least, const CsvFile& csv,
     };
     add_count(number);
     add_count(ring);
-    cells.emplace_back(e.rings.at(static_cast<size_t>(csv.number(row, ring))).height);
+    cells.emplace_back(bed_height(e.shell, static_cast<int>(csv.number(row, ring))));
     add_count(laid);
     add_count(blocks);
     cells.emplace_back(csv.rows[row][verdict]);

@@ -12,7 +12,8 @@ namespace {
 constexpr auto kFriction = StagedConstruction::Least::friction;
 
 TEST(Stages, HaveTheHeightsOfTheirRings) {
-  const Evaluation e = test::column_evaluation(0.6, 0.4);
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.rings[1] = {.ring = 1};  // the last stage holds it
   const std::string header =
       "stage,ring,laid,blocks,weight_N,verdict,speed_ratio,least_stands,least_moves,head_squeeze_m,"
       "displacement_m,note\n";
