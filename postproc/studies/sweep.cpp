@@ -75,12 +75,16 @@ std::string critical_at(const std::vector<std::string>& keys, const Table& table
                      unit.empty() || unit == "factor" ? "" : " " + unit, settings_of(keys, table, row));
 }
 
-/// Rows whose structure falls.
+/// Rows whose structure falls whatever the value sought. A construction that falls with the mortar of its
+/// case may have a least mortar.
 std::vector<size_t> fallen_rows(const Table& table) {
   const std::vector<std::string> statuses = texts_of(table, "status");
+  const size_t critical = table.column_named("critical_value");
   std::vector<size_t> rows;
-  for (size_t r = 0; r < statuses.size(); ++r)
-    if (falls(statuses[r])) rows.push_back(r);
+  for (size_t r = 0; r < statuses.size(); ++r) {
+    const double* value = std::get_if<double>(&table.rows[r][critical]);
+    if (falls(statuses[r]) && !(value && std::isfinite(*value))) rows.push_back(r);
+  }
   return rows;
 }
 

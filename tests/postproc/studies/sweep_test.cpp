@@ -201,6 +201,24 @@ TEST(SweepTable, MembersThatStandThroughoutTheirBracketAreTheOtherEnd) {
       << text;
 }
 
+// With its own mortar the construction falls, and it has the least mortar with which it stands.
+TEST(SweepTable, ConstructionsWithALeastMortarDoNotFallThroughout) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.3"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "dome"))
+    members.push_back({member.name, "dome", member.settings});
+  for (size_t i = 0; i < members.size(); ++i)
+    scratch.write(members[i].name + "/results/summary.json",
+                  i == 0 ? R"({"status": "moving", "critical_value": 5703, "bracket": [5703, 5650]})"
+                         : R"({"status": "stable", "critical_value": 4000, "bracket": [4000, 3960]})");
+  StudyPage page("Domes", scratch.file("page"));
+  const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+  EXPECT_NE(text.find("What governs: critical value 5703 at joints.friction = 0.1"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("fall throughout"), std::string::npos) << text;
+}
+
 /// A sweep over friction and thickness of four members with a critical value each.
 Table table_of_four() {
   Table table{"sweep", "", {}, {}};
