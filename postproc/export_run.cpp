@@ -1,5 +1,7 @@
 #include "postproc/export_run.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
@@ -7,6 +9,7 @@
 #include "assembly/export/placed_assembly.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/program/warnings.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 #include "postproc/tables/mesh_parts.hpp"
 #include "postproc/tables/result_tables.hpp"
 
@@ -39,6 +42,10 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   std::vector<std::string> warnings = e.warnings;
   const FrameRole role = e.last.frame.role;
   const bool moves = role == FrameRole::step || role == FrameRole::path;
+  if (is_stage(role))
+    if (const auto missing = std::ranges::count(laid_blocks(e.assembly, e.last.frame), false); missing > 0)
+      warnings.push_back(
+          fmt::format("{} that the last stage has not laid were exported, too", counted(missing, "block")));
   ExportModel model{e.assembly, {}, {}, common_scale(e)};
   if (moves) model.poses = poses_of(e.assembly, e.last.frame.blocks);
   if (at_rest(e))

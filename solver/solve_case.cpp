@@ -48,6 +48,8 @@ Assembly read_matching_assembly(SolveRequest* asked, std::vector<std::string>* d
   refuse_keys_without_effect(request.scene, assembly);
   resolve_block_names(assembly, &request.scene.loads, &request.scene.ties, &request.scene.supports);
   resolve_block_names(assembly, &request.scene.analysis.range.quantities);
+  for (BlockRef& block : request.scene.analysis.staged.sequence)
+    resolve_block_name(assembly, "analysis.staged.sequence", &block);
   resolve_compliance(assembly, request.scene.loads.gravity, &request.scene.joints.compliance);
   resolve_thresholds(assembly, &request.scene.analysis.thresholds);
   if (auto& control = request.scene.analysis.path.control) {

@@ -104,7 +104,7 @@ struct StagedConstruction {
   Unit unit = Unit::ring;                 ///< what each stage lays; by block: one of every team
   int teams = 1;                          ///< >= 1: equal arcs of a course that are laid at the same time
   Order order = Order::counterclockwise;  ///< seen from above, along the course
-  std::vector<int> sequence;              ///< order `given`: numbers of blocks; the others of a course follow
+  std::vector<BlockRef> sequence;         ///< order `given`; the other blocks of a course follow
   bool carry = false;  ///< stages start from the state of the last one instead of unloaded joints
   int first_ring = 0;  ///< index of the last ring laid in the first stage
   int last_ring = -1;  ///< index of the last ring laid in the last stage; -1: the complete model

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "assembly/case/declare.hpp"
 
@@ -58,9 +59,9 @@ void declare_curing_rules(Section& s, const StagedConstruction& staged) {
   s.rule(!staged.days_per_course || !staged.curing.empty(), "days_per_course", "requires curing");
 }
 
-bool all_differ(std::vector<int> numbers) {
-  std::ranges::sort(numbers);
-  return std::ranges::adjacent_find(numbers) == numbers.end();
+bool all_differ(const std::vector<BlockRef>& blocks) {
+  std::set<std::pair<std::string, int>> found;
+  return std::ranges::all_of(blocks, [&](const BlockRef& b) { return found.emplace(b.name, b).second; });
 }
 
 }  // namespace
@@ -74,9 +75,8 @@ void declare_staged(Section& s, StagedConstruction& staged) {
       "order", staged.order,
       "unit: block: direction of laying along the course, seen from above; alternating: counterclockwise in "
       "even courses; given: by sequence");
-  s.integers(
-      "sequence", staged.sequence, {.min = 0},
-      "order: given: numbers of blocks in the order in which those of a course are laid; others follow");
+  s.blocks("sequence", staged.sequence,
+           "order: given: blocks in the order in which those of a course are laid; others follow");
   s.flag("carry", staged.carry,
          "each stage starts from displacements, forces, slip and damage of the last one; a new block is laid "
          "stress-free");

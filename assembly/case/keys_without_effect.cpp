@@ -6,6 +6,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/model/block_names.hpp"
 
 namespace cupola {
 namespace {
@@ -49,14 +50,13 @@ void check_joints(const Joints& joints, const Assembly& assembly, const Refusal&
     refuse.course(fmt::format("joints.rings[{}].from", i), joints.rings[i].from);
 }
 
-void check_sequence(const std::vector<int>& sequence, const Assembly& assembly, const Refusal& refuse) {
+void check_sequence(const std::vector<BlockRef>& sequence, const Assembly& assembly, const Refusal& refuse) {
   const char* key = "analysis.staged.sequence";
-  for (const int block : sequence) {
-    refuse.unless(block < static_cast<int>(assembly.blocks.size()),
-                  fmt::format("{}: there is no block {}: the model has {}", key, block,
-                              counted(assembly.blocks.size(), "block")));
-    refuse.unless(!assembly.blocks[static_cast<size_t>(block)].fixed,
-                  fmt::format("{}: block {} is a support, which is not laid", key, block));
+  for (BlockRef block : sequence) {
+    resolve_block_name(assembly, key, &block);
+    refuse.unless(
+        !assembly.blocks[static_cast<size_t>(block)].fixed,
+        fmt::format("{}: block {} is a support, which is not laid", key, block_label(assembly, block)));
   }
 }
 

@@ -63,8 +63,7 @@ const CaseNode* Section::look_up_scalar(const std::string& key) {
 void Section::document(const std::string& key, const std::string& type, const NumberRule& rule,
                        const std::string& default_value, const std::string& meaning) {
   if (!describing()) return;
-  const bool is_number =
-      type == "number" || type == "integer" || type == "numbers" || type == "integers" || type == "3 numbers";
+  const bool is_number = type == "number" || type == "integer" || type == "numbers" || type == "3 numbers";
   schema_->rows.push_back({path_of(key), schema_->condition, type, is_number ? std::string(rule.unit) : "",
                            is_number ? describe_range(rule) : "", default_value, meaning});
 }

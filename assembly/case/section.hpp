@@ -67,8 +67,6 @@ class Section {
                         const std::string& without, const std::string& meaning);
   void numbers(const std::string& key, std::vector<double>& values, const NumberRule& rule,
                const std::string& meaning);
-  void integers(const std::string& key, std::vector<int>& values, const NumberRule& rule,
-                const std::string& meaning);
 
   /// A key of earlier versions: an error that says what replaces it.
   void retired(const std::string& key, const std::string& instead) const;

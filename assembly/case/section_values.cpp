@@ -162,19 +162,6 @@ void Section::optional_vector3(const std::string& key, std::optional<Eigen::Vect
   record(key, list_of_numbers(given.data(), 3));
 }
 
-void Section::integers(const std::string& key, std::vector<int>& values, const NumberRule& rule,
-                       const std::string& meaning) {
-  std::vector<double> shown_values(values.begin(), values.end());
-  document(key, "integers", rule, format_list(shown_values.data(), shown_values.size()), meaning);
-  if (const CaseNode* node = look_up(key)) {
-    if (node->kind != CaseNode::Kind::list) fail(key, *node, "must be a list of whole numbers, [1, 2]");
-    values.assign(node->items.size(), 0);
-    for (size_t i = 0; i < values.size(); ++i) read_one_integer(key, node->items[i], rule, &values[i]);
-  }
-  shown_values.assign(values.begin(), values.end());
-  record(key, list_of_numbers(shown_values.data(), shown_values.size()));
-}
-
 BlockRef Section::read_block(const std::string& key, const CaseNode& node) const {
   if (node.kind != CaseNode::Kind::scalar || node.text.empty())
     fail(key, node, "must be the number or the name of a block");

@@ -106,7 +106,6 @@ def value_for(key, rng):
                 return rng.choice(SMALL[end])
     kind = key.type.split(" in ")[0]
     if kind == "integer": return rng.choice([0, 1, 2, 3])
-    if kind == "integers": return [0, 1]
     if kind.startswith("3 numbers"): return [rng.choice([0, 1, -1]), rng.choice([0, 1]), rng.choice([0, 1, 0.5])]
     if kind == "numbers": return [0.25, 0.5]
     if kind == "number": return rng.choice([0, 0.1, 0.5, 1, 10, 1e-3, 1e-6])

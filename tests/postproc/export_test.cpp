@@ -80,5 +80,26 @@ TEST(ExportRun, LeavesOutForcesWithoutEquilibrium) {
   EXPECT_EQ(graph["node"].size(), 4u);
 }
 
+// The frame has the contacts of the two lower blocks.
+TEST(ExportRun, WarnsOfBlocksThatTheLastStageHasNotLaid) {
+  const std::string folder = test::fresh_folder("exported");
+  const Assembly a = test::column(3);
+  write_assembly(folder + "/assembly.vtu", a);
+  ResultsWriter writer(folder + "/results", content_hash(a));
+  Summary summary = test::column_summary(a);
+  summary.analysis = AnalysisType::staged;
+  Frame stage = test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3);
+  stage.contacts = test::column_at_rest(test::column(2), test::kGravity, 0.0, 0.5, 0.3).contacts;
+  stage.time = 1.0;
+  test::write_frames({stage}, summary, &writer);
+  writer.write_summary(summary);
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(export_run({test::column_case(), folder + "/assembly.vtu", folder + "/results"},
+                       folder + "/column.obj", true),
+            ExitCode::done);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("1 block that the last stage has not laid"), std::string::npos) << said;
+}
+
 }  // namespace
 }  // namespace cupola::export_run_test

@@ -115,6 +115,14 @@ TEST(ReadCase, ReadsFreshMortarAndItsShortForm) {
   EXPECT_EQ(again.effective_yaml, c.effective_yaml);
   // The associated law jams open courses; it must be admitted.
   EXPECT_THROW(read_case(path, {"analysis.type=staged", "analysis.staged.unit=block"}), InputError);
+  std::vector<std::string> given = block;
+  given.insert(given.end(), {"analysis.staged.order=given", "analysis.staged.sequence=[r0_3, 7]"});
+  const std::vector<BlockRef> sequence = read_case(path, given).analysis.staged.sequence;
+  ASSERT_EQ(sequence.size(), 2u);
+  EXPECT_EQ(sequence[0].name, "r0_3");
+  EXPECT_EQ(sequence[1].number, 7);
+  given.back() = "analysis.staged.sequence=[r0_3, r0_3]";
+  EXPECT_THROW(read_case(path, given), InputError) << "names a block twice";
   EXPECT_NO_THROW(read_case(
       path, {"analysis.type=staged", "analysis.staged.unit=block", "analysis.staged.allow_associated=true"}));
 }
