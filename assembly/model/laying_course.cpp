@@ -21,7 +21,17 @@ int laying_course(const Assembly& assembly, const Block& block) {
 }
 
 bool is_held(const Assembly& assembly, const Block& block, int course, int hold_below) {
-  return !block.fixed && hold_below >= 0 && laying_course(assembly, block) < course - hold_below;
+  if (block.fixed || hold_below < 0) return false;
+  const int own = laying_course(assembly, block);
+  const int end = laying_course(assembly, assembly.stack_of(block.ring).second);
+  if (course < end) return own < course - hold_below;
+  // The stack that is being laid may stand on several beside each other: count each from its top.
+  int base = 0;
+  for (const Sheet& sheet : assembly.sheets) {
+    const int first = laying_course(assembly, sheet.first_ring);
+    if (!sheet.on_previous && first <= course) base = std::max(base, first);
+  }
+  return (end - own) + (course - base) > hold_below;
 }
 
 }  // namespace cupola

@@ -12,7 +12,7 @@ int laying_course(const Assembly& assembly, int ring);
 int laying_course(const Assembly& assembly, const Block& block);
 
 /// True for a block that counts as a support where `course` is laid and only `hold_below` courses below it are
-/// solved. Supports of the case are not meant; -1: no block is held.
+/// solved, of members beside each other those of each. Supports of the case are not meant; -1: none is held.
 bool is_held(const Assembly& assembly, const Block& block, int course, int hold_below);
 
 }  // namespace cupola
