@@ -6,6 +6,9 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/model/joint_rule.hpp"
+#include "generators/stereotomy/separation.hpp"
+
 namespace cupola {
 
 ConvexPiece piece_of(const Assembly& assembly, const Part& part) {
@@ -15,6 +18,40 @@ ConvexPiece piece_of(const Assembly& assembly, const Part& part) {
     piece.faces.push_back({{ids.begin(), ids.end()}, assembly.face_kinds[f], -1});
   }
   return piece;
+}
+
+std::vector<Vec3> points_of(const Assembly& assembly, const ConvexPiece::Face& face) {
+  std::vector<Vec3> points;
+  for (const int v : face.vertices) points.push_back(assembly.vertices[v]);
+  return points;
+}
+
+double volume_of(const Assembly& assembly, const ConvexPiece& piece) {
+  const Vec3& origin = assembly.vertices[piece.faces.front().vertices.front()];
+  double six_volumes = 0.0;
+  for (const ConvexPiece::Face& face : piece.faces) {
+    const std::vector<Vec3> p = points_of(assembly, face);
+    for (size_t i = 1; i + 1 < p.size(); ++i)
+      six_volumes += (p[0] - origin).dot((p[i] - origin).cross(p[i + 1] - origin));
+  }
+  return six_volumes / 6.0;
+}
+
+double shared_width(const Assembly& assembly, const ConvexPiece& a, const ConvexPiece& b, double rounding,
+                    double gap) {
+  const double opposed = gap > 0.0 ? -std::cos(JointRule{}.max_angle) : -1.0 + 1e-9;
+  double widest = 0.0;
+  for (const ConvexPiece::Face& f : a.faces) {
+    const std::vector<Vec3> of_a = points_of(assembly, f);
+    const Plane plane = polygon_plane(of_a);
+    for (const ConvexPiece::Face& g : b.faces) {
+      const std::vector<Vec3> of_b = points_of(assembly, g);
+      if (plane.normal.dot(polygon_plane(of_b).normal) > opposed) continue;
+      if (std::abs(plane.normal.dot(polygon_centroid(of_b)) - plane.offset) > gap + 10.0 * rounding) continue;
+      widest = std::max(widest, overlap_width(of_a, of_b, plane.normal));
+    }
+  }
+  return widest > 1e3 * rounding ? widest : 0.0;
 }
 
 ConvexClip::ConvexClip(std::vector<Plane> body, double rounding, Assembly* assembly)

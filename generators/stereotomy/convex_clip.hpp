@@ -19,6 +19,13 @@ struct ConvexPiece {
 };
 
 ConvexPiece piece_of(const Assembly& assembly, const Part& part);
+std::vector<Vec3> points_of(const Assembly& assembly, const ConvexPiece::Face& face);
+double volume_of(const Assembly& assembly, const ConvexPiece& piece);  ///< m3
+
+/// m, least width of the widest patch that two pieces share; 0 if they do not meet. Across a gap their planes
+/// are apart and a little inclined to each other.
+double shared_width(const Assembly& assembly, const ConvexPiece& a, const ConvexPiece& b, double rounding,
+                    double gap = 0.0);
 
 /// Cuts convex pieces by the planes of one convex body. Neighbouring pieces share their edges, and so the
 /// vertices in which a plane meets them: joints stay closed. Vertices nearer to a plane than `rounding` (m)

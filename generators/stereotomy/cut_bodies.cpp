@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -11,13 +12,13 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
-#include "assembly/model/joint_rule.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
-#include "generators/stereotomy/separation.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
 namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();  // m
 
 /// A convex piece of a block, with the part from which it was cut.
 struct Cell {
@@ -27,42 +28,6 @@ struct Cell {
   int side = 0;  ///< of the joints that part its block: pieces on different sides are different blocks
   bool is_changed = false;
 };
-
-std::vector<Vec3> points_of(const Assembly& assembly, const ConvexPiece::Face& face) {
-  std::vector<Vec3> points;
-  for (const int v : face.vertices) points.push_back(assembly.vertices[v]);
-  return points;
-}
-
-double volume_of(const Assembly& assembly, const ConvexPiece& piece) {
-  const Vec3& origin = assembly.vertices[piece.faces.front().vertices.front()];
-  double six_volumes = 0.0;
-  for (const ConvexPiece::Face& face : piece.faces) {
-    const std::vector<Vec3> p = points_of(assembly, face);
-    for (size_t i = 1; i + 1 < p.size(); ++i)
-      six_volumes += (p[0] - origin).dot((p[i] - origin).cross(p[i + 1] - origin));
-  }
-  return six_volumes / 6.0;
-}
-
-/// m, least width of the widest patch that two pieces share; 0 if they do not meet. Across a gap their planes
-/// are apart and a little inclined to each other.
-double shared_width(const Assembly& assembly, const ConvexPiece& a, const ConvexPiece& b, double rounding,
-                    double gap = 0.0) {
-  const double opposed = gap > 0.0 ? -std::cos(JointRule{}.max_angle) : -1.0 + 1e-9;
-  double widest = 0.0;
-  for (const ConvexPiece::Face& f : a.faces) {
-    const std::vector<Vec3> of_a = points_of(assembly, f);
-    const Plane plane = polygon_plane(of_a);
-    for (const ConvexPiece::Face& g : b.faces) {
-      const std::vector<Vec3> of_b = points_of(assembly, g);
-      if (plane.normal.dot(polygon_plane(of_b).normal) > opposed) continue;
-      if (std::abs(plane.normal.dot(polygon_centroid(of_b)) - plane.offset) > gap + 10.0 * rounding) continue;
-      widest = std::max(widest, overlap_width(of_a, of_b, plane.normal));
-    }
-  }
-  return widest > 1e3 * rounding ? widest : 0.0;
-}
 
 /// The work on one member.
 class Carving {
@@ -81,7 +46,7 @@ class Carving {
     for (const Cell& cell : cells_) volumes_[cell.block - start.block] += volume_of(*assembly, cell.piece);
   }
 
-  /// Takes bodies from all pieces; the faces of the cut.
+  /// Takes bodies from all pieces; the faces of stones that lie on them.
   std::vector<std::vector<Vec3>> take(const std::vector<std::vector<Plane>>& bodies, bool from_supports,
                                       const std::string& key) {
     std::vector<std::vector<Vec3>> faces;
@@ -108,6 +73,9 @@ class Carving {
         if (!is_fixed) {
           cell.side = 2 * cell.side + (outside.empty() ? 1 : 0);
           sides[cell.block][outside.empty() ? 1 : 0] = true;
+          for (ConvexPiece::Face& face : cell.piece.faces)  // between slices
+            if (face.kind == FaceKind::internal && lies_in(half_space.front(), face, -near(face)))
+              face.kind = FaceKind::head;
         }
         parted.push_back(std::move(cell));
         continue;
@@ -169,8 +137,30 @@ class Carving {
     assembly_->blocks = std::move(blocks);
   }
 
+  double rounding() const { return rounding_; }
+
  private:
-  /// Takes a body, and adds the faces of the cut; true if it met a block.
+  /// m, up to which a face lies in a plane: stones end off the plane of a head joint.
+  double near(const ConvexPiece::Face& face) const {
+    return 10.0 * rounding_ + (face.kind == FaceKind::internal ? 0.0 : gap_);
+  }
+  /// True if a face does not rise above a plane, nor lie lower than `least` (m).
+  bool lies_in(const Plane& plane, const ConvexPiece::Face& face, double least) const {
+    return std::ranges::all_of(face.vertices, [&](int v) {
+      const double height = plane.normal.dot(assembly_->vertices[v]) - plane.offset;
+      return height >= least && height <= near(face);
+    });
+  }
+  /// True for a face of the cut, and for one that lay there before.
+  bool lies_on(const std::vector<Plane>& body, const ConvexPiece::Face& face) const {
+    const Vec3 normal = polygon_plane(points_of(*assembly_, face)).normal;
+    return std::ranges::all_of(body, [&](const Plane& p) { return lies_in(p, face, -kFar); }) &&
+           std::ranges::any_of(body, [&](const Plane& p) {
+             return normal.dot(p.normal) < 0.0 && lies_in(p, face, -near(face));
+           });
+  }
+
+  /// Takes a body, and adds the faces of stones that lie on it; true if it met a block.
   bool take_one(const std::vector<Plane>& body, bool from_supports, std::vector<std::vector<Vec3>>* faces) {
     ConvexClip clip(body, rounding_, assembly_);
     std::vector<Cell> left;
@@ -188,9 +178,10 @@ class Carving {
       for (ConvexPiece& piece : pieces) {
         if (volume_of(*assembly_, piece) <= std::pow(1e3 * rounding_, 3)) continue;
         for (ConvexPiece::Face& face : piece.faces) {
-          if (face.plane >= 0 && !assembly_->blocks[cell.block].fixed)
-            faces->push_back(points_of(*assembly_, face));
           face.plane = -1;
+          if (!lies_on(body, face)) continue;
+          if (face.kind == FaceKind::internal) face.kind = FaceKind::free;  // of a slice
+          if (!assembly_->blocks[cell.block].fixed) faces->push_back(points_of(*assembly_, face));
         }
         left.push_back({cell.part, std::move(piece), cell.block, cell.side, cell.is_changed || !whole});
       }

@@ -8,35 +8,17 @@
 
 #include "assembly/base/error.hpp"
 #include "tests/generators/models.hpp"
+#include "tests/generators/stereotomy/cut_wall.hpp"
 
 namespace cupola::cut_bodies_test {
 namespace {
 
-constexpr double kLength = 4.0, kHeight = 3.0, kThickness = 0.5;  // m
-constexpr double kInner = 5.0;                                    // m, x of the inner face
-
-/// A wall along y.
-Case wall(std::vector<Cut> cuts) {
-  VaultSurface surface;
-  surface.plan.kind = Plan::Kind::line;
-  surface.plan.length = kLength;
-  surface.profile.kind = Profile::Kind::straight;
-  surface.profile.height = kHeight;
-  surface.thickness = kThickness;
-  Case c;
-  c.geometry.surface = surface;
-  c.geometry.bond = RunningBond{6, 4, 2};
-  c.geometry.cuts = std::move(cuts);
-  return c;
-}
-
-Cut plane(const Vec3& point, const Vec3& normal, Cut::As as = Cut::As::free) {
-  Cut cut;
-  cut.point = point;
-  cut.normal = normal;
-  cut.as = as;
-  return cut;
-}
+using test::kHeight;
+using test::kInner;
+using test::kLength;
+using test::kThickness;
+using test::plane;
+using test::wall;
 
 Cut prism(std::vector<double> y, std::vector<double> z) {
   Cut cut;

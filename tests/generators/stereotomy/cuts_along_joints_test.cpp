@@ -1,0 +1,76 @@
+// Cuts whose planes meet joints or pass along them: what they lay open, what is held, and their thickness.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/generators/stereotomy/cut_wall.hpp"
+
+namespace cupola::cuts_along_joints_test {
+namespace {
+
+using test::kHeight;
+using test::kThickness;
+using test::plane;
+using test::wall;
+
+// m2, of the faces across y of free blocks, or of the last support, that something can touch.
+double touched_area(const Assembly& assembly, double y, bool of_support) {
+  double area = 0.0;
+  const int last = static_cast<int>(assembly.blocks.size()) - 1;
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const std::vector<Vec3> points = face_points(assembly, f);
+      const bool lies_there =
+          std::ranges::all_of(points, [&](const Vec3& p) { return std::abs(p.y() - y) < 1e-12; });
+      const bool counts = of_support ? part.block == last : !assembly.blocks[part.block].fixed;
+      if (lies_there && counts && assembly.face_kinds[f] != FaceKind::internal) area += polygon_area(points);
+    }
+  return area;
+}
+
+// Stones that end on the plane are held as those that it cuts, and where it cuts none.
+TEST(CutsAlongJoints, AHeldCutAlongJointsHoldsAllCourses) {
+  for (const bool is_running : {true, false})
+    for (const double gap : {0.0, 2e-3}) {  // m
+      Case c = wall({plane({0.0, 3.0, 0.0}, {0.0, 1.0, 0.0}, Cut::As::held)});
+      if (!is_running) c.geometry.bond = StackBond{6, 4, 2};
+      c.contact.margin = 5e-3;
+      if (gap > 0.0) {
+        c.geometry.imperfections = Imperfections{};
+        c.geometry.imperfections->gap = gap;
+      }
+      ModelReport report;
+      const Assembly assembly = check_and_report(c, &report);
+      EXPECT_EQ(report.num_supports, 2);
+      // All but half a gap round each course.
+      EXPECT_NEAR(touched_area(assembly, 3.0, true), kThickness * kHeight, 1e-12 + 2.0 * gap * kHeight);
+    }
+}
+
+// A plane between two slices of a stone lays faces open that nothing touched: a wall held one stone in two,
+// and the parts of a stone went through each other.
+TEST(CutsAlongJoints, PlanesBetweenSlicesLayFacesOpen) {
+  for (const auto as : {Cut::As::held, Cut::As::joint, Cut::As::free}) {
+    Case c = wall({plane({0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, as)});
+    VaultSurface& surface = std::get<VaultSurface>(c.geometry.surface);
+    surface.plan.kind = Plan::Kind::circle;
+    surface.profile.kind = Profile::Kind::semicircle;
+    surface.eye = 1.0;
+    c.geometry.bond = RunningBond{6, 8, 2};
+    const Assembly assembly = generate(c);
+    for (const Part& part : assembly.parts)
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+        const std::vector<Vec3> points = face_points(assembly, f);
+        const bool lies_there =
+            std::ranges::all_of(points, [](const Vec3& p) { return std::abs(p.y()) < 1e-12; });
+        EXPECT_FALSE(lies_there && !assembly.blocks[part.block].fixed &&
+                     assembly.face_kinds[f] == FaceKind::internal)
+            << part.block;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace cupola::cuts_along_joints_test
