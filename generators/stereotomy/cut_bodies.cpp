@@ -13,6 +13,7 @@
 
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
+#include "generators/stereotomy/internal_faces.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
@@ -346,6 +347,7 @@ void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, do
       faces[i] = carving.take(taken, from_supports, key);
   }
   carving.write();
+  mark_internal_faces(start.part, 1e3 * carving.rounding(), assembly);
   for (size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].cut.as != Cut::As::held) continue;
     if (faces[i].empty())

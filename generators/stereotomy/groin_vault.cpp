@@ -16,6 +16,7 @@
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
 #include "generators/stereotomy/cut_planes.hpp"
+#include "generators/stereotomy/internal_faces.hpp"
 
 namespace cupola {
 namespace {
@@ -322,26 +323,6 @@ class Crossing {
   std::vector<int> group_;                                    // of the stones of all webs
   std::vector<std::map<int, int>> turned_;                    // per web, vertices of the first
 };
-
-/// True if two faces are the same polygon, seen from its two sides.
-bool coincide(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double rounding) {
-  return a.size() == b.size() && std::ranges::all_of(a, [&](const Vec3& p) {
-           return std::ranges::any_of(b, [&](const Vec3& q) { return (p - q).norm() < rounding; });
-         });
-}
-
-/// Makes the faces that two parts of one block share internal, so that its surface is closed.
-void mark_internal_faces(size_t first_part, double rounding, Assembly* assembly) {
-  const std::vector<Part>& parts = assembly->parts;
-  for (size_t p = first_part; p < parts.size(); ++p)
-    for (size_t q = p + 1; q < parts.size() && parts[q].block == parts[p].block; ++q)
-      for (int f = parts[p].face_start; f < parts[p].face_start + parts[p].num_faces; ++f) {
-        const std::vector<Vec3> points = face_points(*assembly, f);
-        for (int g = parts[q].face_start; g < parts[q].face_start + parts[q].num_faces; ++g)
-          if (coincide(points, face_points(*assembly, g), rounding))
-            assembly->face_kinds[f] = assembly->face_kinds[g] = FaceKind::internal;
-      }
-}
 
 }  // namespace
 

@@ -72,5 +72,14 @@ TEST(CutsAlongJoints, PlanesBetweenSlicesLayFacesOpen) {
   }
 }
 
+// A rest of 1 mm beyond a joint joins its neighbour: what they share is inside the stone.
+TEST(CutsAlongJoints, WhatARestSharesWithItsStoneIsInternal) {
+  Case c = wall({plane({0.0, 3.001, 0.0}, {0.0, 1.0, 0.0}, Cut::As::held)});
+  c.geometry.bond = StackBond{6, 4, 2};
+  const Assembly assembly = generate(c);
+  EXPECT_EQ(touched_area(assembly, 3.0, false), 0.0);
+  EXPECT_NEAR(touched_area(assembly, 3.001, false), kThickness * kHeight, 1e-12) << "rounding, m2";
+}
+
 }  // namespace
 }  // namespace cupola::cuts_along_joints_test
