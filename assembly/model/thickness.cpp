@@ -1,8 +1,10 @@
 #include "assembly/model/thickness.hpp"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
+#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "assembly/base/error.hpp"
@@ -35,6 +37,22 @@ void add_edges_across(const Assembly& assembly, const Part& part, std::map<int, 
   }
 }
 
+/// Each corner of a stone needs one edge across: those that a cut or an opening makes between the skins would
+/// stay where they are, and bend the faces.
+void check_corners(const Assembly& assembly, const std::map<int, int>& extrados_of) {
+  std::set<int> across;
+  for (const auto& [inner, outer] : extrados_of) across.insert({inner, outer});
+  const auto is_across = [&](int vertex) { return across.contains(vertex); };
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      if (!assembly.blocks[part.block].fixed && !std::ranges::all_of(assembly.face(f), is_across))
+        throw InputError(fmt::format(
+            "analysis.limit.parameter: thickness: requires stones whose corners all lie on edges from the "
+            "intrados to the extrados; some of block {} do not, as where a cut, an opening or a groin meets "
+            "joints; compare runs with other thicknesses of the member instead, by --set",
+            part.block));
+}
+
 }  // namespace
 
 Assembly with_thickness(const Assembly& assembly, double factor) {
@@ -48,6 +66,7 @@ Assembly with_thickness(const Assembly& assembly, double factor) {
   for (const Part& part : assembly.parts) add_edges_across(assembly, part, &extrados_of);
   if (extrados_of.empty())
     throw InputError("analysis.limit.parameter: thickness: no block has both an intrados and an extrados");
+  check_corners(assembly, extrados_of);
   Assembly changed = assembly;
   for (const auto& [inner, outer] : extrados_of) {
     const Vec3 middle = 0.5 * (assembly.vertices[inner] + assembly.vertices[outer]);
