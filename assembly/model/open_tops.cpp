@@ -104,7 +104,7 @@ std::vector<LoadedFace> open_tops(const Assembly& assembly, int from_ring, int t
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       const FaceKind kind = assembly.face_kinds[f];
       const bool is_last_bed = kind == FaceKind::bed && part.ring == last_ring[block.member];
-      if (kind != FaceKind::top && !is_last_bed) continue;
+      if (kind != FaceKind::top && kind != FaceKind::free && !is_last_bed) continue;
       Top top{loaded_face(assembly, part.block, f), {}, block.member};
       if (!looks_up(top.face)) continue;
       top.open = {top.face.polygon};

@@ -94,6 +94,37 @@ TEST(LoadsOnTops, FillOfTheWallsAloneLiesOnNone) {
   EXPECT_THROW(generate(scene), InputError);
 }
 
+// N, of soil up to z = 3 m on a wall of 4 m by 2 m by 0.5 m, less a cut.
+double fill_on_wall(const std::string& cut,
+                    const std::string& load = "fill: {level: 3, unit_weight: 10000}") {
+  const std::string file = test::fresh_folder("loads_on_tops") + "/wall.yaml";
+  std::ofstream(file) << fmt::format(R"(
+geometry:
+  surface: {{type: wall, length: 4, height: 2, thickness: 0.5}}
+  bond: {{type: running, rings: 6, blocks_per_ring: 8, slices_per_block: 2}}
+  cuts: [{}]
+loads: {{faces: [{{{}}}]}}
+)",
+                                     cut, load);
+  const Case scene = read_case(file);
+  double sum = 0.0;
+  for (const PointForce& force : applied_loads(scene.loads, generate(scene))) sum -= force.force.z();
+  return sum;
+}
+
+// Closed forms, to rounding: the depth of soil over each metre of the wall, also on parts of faces that the
+// cut made between pieces of one stone, which stay covered. None lies on the sill of a window.
+TEST(LoadsOnTops, FillLiesOnWhatACutLaidOpen) {
+  EXPECT_NEAR(fill_on_wall("{type: plane, point: [0, 0, 1.5], normal: [0, 0, 1]}"), 4 * 0.5 * 1.5e4, 1e-7);
+  // The slope reaches the top of 2 m at x = 1/3 m, and 0.9 m at the end.
+  EXPECT_NEAR(fill_on_wall("{type: plane, point: [2, 0, 1.5], normal: [0.3, 0, 1]}"),
+              0.5e4 * (1.0 / 3.0 + 11.0 / 3.0 * (3.0 - 1.45)), 1e-7);
+  EXPECT_NEAR(fill_on_wall("{type: prism, axis: y, u: [1, 2, 2, 1], v: [1.2, 1.2, 3, 3]}"),
+              0.5e4 * (3 * 1.0 + 1.8), 1e-7);
+  EXPECT_NEAR(fill_on_wall("{type: prism, axis: y, u: [1, 2, 2, 1], v: [0.5, 0.5, 1.2, 1.2]}"), 4 * 0.5e4,
+              1e-7);
+}
+
 // A traction on faces of kind top acts on what is free of the tops of a member.
 TEST(LoadsOnTops, TractionActsOnTheFreeTopsOfAWall) {
   const Case scene = barrel_on_walls(4.0, "{faces: [{kind: top, member: wall 2, traction: [0, 0, -1000]}]}");
