@@ -14,12 +14,15 @@ namespace cupola {
 namespace {
 
 /// m: the area of a joint on a support over the thickness of the whole shell along the nearest facet on the
-/// beds of the block that it carries; NaN without one.
-double length_of(const JointWrench& joint, const Block& carried, const Shell& shell) {
+/// beds of the block that it carries; NaN without one. Behind the last course of a stack lies the first bed
+/// of another.
+double length_of(const JointWrench& joint, const Assembly& assembly, const Block& carried,
+                 const Shell& shell) {
   const BedFacet* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const int bed : {carried.ring, carried.ring + carried.num_rings}) {
     if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
+    if (assembly.sheet_of(bed) && assembly.stack_of(bed) != assembly.stack_of(carried.ring)) continue;
     for (const BedFacet& f : shell.beds[bed]) {
       const Vec3 middle = 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
       const double distance = (middle - joint.centroid).squaredNorm();
@@ -51,7 +54,7 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     reaction.ring = std::min(reaction.ring, ring);
     reaction.force += force;
     reaction.outward += force.dot(assembly.outward(ring, joint.centroid));
-    reaction.length += length_of(joint, assembly.blocks[carried], shell);
+    reaction.length += length_of(joint, assembly, assembly.blocks[carried], shell);
   }
   for (int i = 0; i < num_ties; ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];

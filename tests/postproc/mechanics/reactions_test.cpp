@@ -33,6 +33,25 @@ TEST(Reactions, AreasAreThoseOfTheContactsNotOfTheirHull) {
   EXPECT_NEAR(support_reactions(a, joints, shell).at(0).length, 0.6, kRounding);
 }
 
+// The joint of the last course of a rib with its support lies on no bed, near the first one of the next
+// member, four times as thick.
+TEST(Reactions, LengthIsThatOnTheBedsOfTheMemberItself) {
+  Assembly a = test::column(3);
+  Shell shell = shell_of(a, Vec3::UnitZ());
+  const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+  const JointWrenches joints = joint_wrenches(a, frame.contacts, shell);
+  const double length = support_reactions(a, joints, shell).at(0).length;
+  a.sheets = {{.name = "rib", .num_rings = 1}, {.name = "web", .first_ring = 1, .num_rings = 2}};
+  for (BedFacet& facet : shell.beds[0])
+    for (Vec3* corner : {&facet.intrados_a, &facet.intrados_b, &facet.extrados_a, &facet.extrados_b})
+      corner->z() -= 10.0;
+  for (BedFacet& facet : shell.beds[1]) {
+    facet.extrados_a += 3.0 * (facet.extrados_a - facet.intrados_a);
+    facet.extrados_b += 3.0 * (facet.extrados_b - facet.intrados_b);
+  }
+  EXPECT_NEAR(support_reactions(a, joints, shell).at(0).length, length, kRounding);
+}
+
 // A tie of 1 kN from block 2 down to the support pulls it up, and another, from block 3 to an anchor without
 // joints, pulls that; a restraint, which follows the ties, pushes on the ground.
 TEST(Reactions, CountTheTiesOfTheSupports) {
