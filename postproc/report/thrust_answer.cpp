@@ -213,10 +213,13 @@ std::string spread_over(const std::vector<Reaction>& supports) {
 std::string along_supports(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
   // Joints of a smaller extent do not have the length of the supports.
   if (e.summary.critical && e.summary.critical->parameter == "joint_extent") return "";
-  const Thrust& most = thrusts.front();
-  const std::string along = per_metre(most.force, length_of(e, sheet, thrusting(e, sheet, most)));
+  const auto length = [&](const Thrust& thrust) { return length_of(e, sheet, thrusting(e, sheet, thrust)); };
+  const auto per_length = [&](const Thrust& thrust) { return thrust.force / length(thrust); };
+  const Thrust& most = *std::ranges::max_element(thrusts, {}, per_length);
+  const std::string along = per_metre(most.force, length(most));
   if (along.empty() || thrusts.size() == 1) return along;
-  return (differ(thrusts) ? "at most " : "on each side, ") + along;
+  const bool is_even = !differ(thrusts) && alike(length(thrusts.front()), length(thrusts.back()));
+  return (is_even ? "on each side, " : "at most ") + along;
 }
 
 /// The thrusts of further stacks.

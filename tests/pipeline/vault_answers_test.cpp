@@ -288,6 +288,15 @@ TEST(VaultAnswers, TheThrustOfAnArchUnderHorizontalLoadHasTwoValues) {
   EXPECT_NEAR(largest, towards_x, 1.0);
 }
 
+// A door takes 1 m of 6 m from one of two supports that bear the same.
+TEST(VaultAnswers, EqualThrustsOnDifferentLengthsDifferPerMetre) {
+  const ProgramFolder folder;
+  const Evaluation e = solve_and_evaluate(read_case(bundled_folder() + "/barrel_windows.yaml"), folder);
+  const std::string detail = thrust_answer(e).value().detail;
+  EXPECT_TRUE(detail.starts_with("at most ")) << detail;
+  EXPECT_NE(detail.find(" over 5 m of support"), std::string::npos) << detail;
+}
+
 // Where a barrel stands on supports and on other members, its range counts both, as the statics do.
 TEST(VaultAnswers, TheRangeOfAThrustCountsSupportsAndOtherMembers) {
   const ProgramFolder folder;
