@@ -23,8 +23,8 @@ namespace {
 
 /// Time of a static solve by Newton's method, in factorisations including assembly: the all-stick start, five
 /// to eight iterations, then residuals, certificate and the frame. Measured on the models of the paper: 14 to
-/// 17, small walls 8.
-constexpr double kFactorizationsPerSolve = 12.0;
+/// 17, walls 6 to 8.
+constexpr double kFactorizationsPerSolve = 10.0;
 /// The same for many blocks, in multigrid solves: a dozen iterations and more, with passes over the blocks,
 /// and more iterations of conjugate gradients towards the end.
 constexpr double kMultigridSolvesPerSolve = 26.0;

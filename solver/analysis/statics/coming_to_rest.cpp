@@ -141,8 +141,9 @@ void ComingToRest::iterate() {
   ContactSolverOptions solve = solve_options();
   solve.tolerance = std::max(tightening_ * solve.tolerance,
                              std::min(solve.tolerance, rounding_of_impulses(solve.reference_speed)));
-  // After the first iteration few joints change their state, and the last factor is a good preconditioner.
-  solve.lag_factor = x_.v.size() > 0 && !has_many_blocks(step_.problem);
+  // After the first iteration few joints change their state, and the last factor is a good preconditioner. Of
+  // many blocks the associated law has none.
+  solve.lag_factor = x_.v.size() > 0 && !(has_many_blocks(step_.problem) && solve.law.is_associated());
   const VecX before = x_.v.size() > 0 ? x_.v : VecX::Zero(step_.problem.v_star.size());
   trial_.step_solution = x_;
   if (!options_.control) return attempt(solve, before, before);

@@ -1,5 +1,8 @@
 #include "solver/contact/methods/coulomb_direction.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "solver/contact/methods/gmres.hpp"
 
 namespace cupola {
@@ -23,7 +26,9 @@ bool CoulombDirection::solve_by_gmres(const UnsymmetricBlockMatrix& J, const Vec
   const bool is_symmetric = last_ == Factor::symmetric;
   if (last_ == Factor::none || (is_symmetric ? symmetric_.pattern() : unsymmetric_.pattern()) != pattern)
     return false;
-  const int max_iterations = is_symmetric ? 12 : 6;  // half the cost of an LU factor at 1,000 blocks
+  // Half the cost of an LU factor of a shell, which grows with the power 1.5 of the number of its blocks.
+  const double growth = std::sqrt(std::max(1.0, pattern.num_blocks() / 1000.0));
+  const int max_iterations = static_cast<int>(growth * (is_symmetric ? 12 : 6));
   const auto precondition = [&](const VecX& r) {
     return is_symmetric ? symmetric_.solve_approximately(r) : unsymmetric_.solve(r);
   };
