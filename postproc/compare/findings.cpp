@@ -131,8 +131,7 @@ const std::vector<Measure>& measures() {
        "lowest", Best::lowest, [](const S& s) { return s.largest_friction_use; }},
       {kCritical, "", 1.0, "The critical value is",
        "The limit between standing and falling. For friction, thickness and fresh mortar, lower is safer; "
-       "for "
-       "load, tilt, acceleration and spread, higher is safer.",
+       "for load, tilt, acceleration and spread, higher is safer.",
        "lowest", Best::lowest, [](const S& s) { return s.critical_value; }},
       {"kern_use", "", 1.0, "The mean eccentricity of the bed forces relative to the edge of the kern is",
        "How far off-centre the beds are loaded, on average; a bed above 1 is partly unloaded.",
