@@ -91,6 +91,10 @@ class Carving {
       }
     }
     cells_ = std::move(parted);
+    std::map<int, int> rank;  // of sides, which doubling would soon make too large
+    for (const Cell& cell : cells_) rank[cell.side] = 0;
+    for (int next = 0; auto& [side, own] : rank) own = next++;
+    for (Cell& cell : cells_) cell.side = rank.at(cell.side);
     const size_t before = touched_.size();
     for (const auto& [block, on] : sides)
       if (on[0] && on[1]) touched_.push_back(block);

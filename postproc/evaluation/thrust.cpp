@@ -47,7 +47,7 @@ std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
   const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
   std::array<std::optional<double>, 2> sides;  // the second of an arch at x < 0
   for (const JointWrench& joint : e.last.joints.wrenches) {
-    const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid);
+    const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid, joint.patch.plane.normal);
     if (bearer < 0) continue;
     const Vec3 outward = sheet.outward(joint.centroid).value();
     std::optional<double>& side = sides[arch && outward.dot(sheet.towards(0.0)) < 0.0 ? 1 : 0];

@@ -107,7 +107,8 @@ std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
   ForceFunctional f = scene_.zero();
   for (const auto& [key, pair] : scene_.joints.pairs()) {
     const JointKind kind = scene_.contacts.patches[scene_.contacts.points[pair.contacts.front()].patch].kind;
-    const int bearer = bearer_of_thrust(assembly, last, {key.first, key.second, kind, 0}, pair.centroid);
+    const int bearer =
+        bearer_of_thrust(assembly, last, {key.first, key.second, kind, 0}, pair.centroid, pair.normal);
     if (bearer < 0) continue;
     const Vec3 outward = scene_.joints.outward(pair.centroid, bearer == key.first ? key.second : key.first);
     const bool other_springing = is_arch && outward.dot(last.towards(0.0)) < 0.0;

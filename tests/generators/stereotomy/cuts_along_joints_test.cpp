@@ -51,6 +51,20 @@ TEST(CutsAlongJoints, AHeldCutAlongJointsHoldsAllCourses) {
     }
 }
 
+// Sides of 40 planes, doubled with each, are more than an int counts: a plane and 39 behind it part a stone
+// into 41.
+TEST(CutsAlongJoints, FortyPlanesPartAStoneInto41) {
+  constexpr int kPlanes = 40;
+  std::vector<Cut> cuts{plane({0.0, 3.99, 0.0}, {0.0, 1.0, 0.0}, Cut::As::joint)};
+  for (int k = 1; k < kPlanes; ++k)
+    cuts.push_back(plane({0.0, 0.09 * k, 0.0}, {0.0, 1.0, 0.0}, Cut::As::joint));
+  Case c = wall(cuts);
+  c.geometry.bond = StackBond{1, 1, 1};
+  int stones = 0;
+  for (const Block& block : generate(c).blocks) stones += block.fixed ? 0 : 1;
+  EXPECT_EQ(stones, kPlanes + 1);
+}
+
 // A plane between two slices of a stone lays faces open that nothing touched: a wall held one stone in two,
 // and the parts of a stone went through each other.
 TEST(CutsAlongJoints, PlanesBetweenSlicesLayFacesOpen) {

@@ -47,6 +47,7 @@ JointWrench pushing(int lower, int upper, double x, double force) {
   joint.block_a = lower;
   joint.block_b = upper;
   joint.centroid = {x, 0, 0};
+  joint.patch.plane.normal = Vec3::UnitX();
   joint.wrench.force = {-force, 0, 0};  // on the upper block
   return joint;
 }
@@ -96,6 +97,20 @@ TEST(Thrust, CountsNoMitre) {
   e.last.joints.wrenches.push_back(pushing(2, 3, 1.8, -3.0));
   EXPECT_EQ(outward_thrust(e), 9.0) << "a rib under the springing";
   e.last.joints.wrenches.back().kind = JointKind::head;
+  EXPECT_EQ(outward_thrust(e), 10.0);
+}
+
+// Skewbacks are heads of the abutments, on which an arch leans, and walls stand on an arch.
+TEST(Thrust, CountsSkewbacksAndNoWallAbove) {
+  Evaluation e = half_arches();
+  e.assembly.blocks[3].centroid = {1.8, 0, 0.3};  // over the wall and beside the rib
+  JointWrench& joint = e.last.joints.wrenches.front();
+  joint.kind = JointKind::head;
+  joint.patch.plane.normal = Vec3(-3, 0, -4) / 5.0;
+  EXPECT_EQ(outward_thrust(e), 10.0);
+  e.assembly.blocks[2].centroid = {1.8, 0, 1.0};  // as a wall, over the springer
+  e.last.joints.wrenches.push_back(pushing(2, 3, 1.8, 5.0));
+  e.last.joints.wrenches.back().patch.plane.normal = Vec3::UnitZ();
   EXPECT_EQ(outward_thrust(e), 10.0);
 }
 

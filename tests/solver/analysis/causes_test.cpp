@@ -125,6 +125,30 @@ TEST(Spreading, LongStepsEndAPathWhereShortOnesDo) {
     }
 }
 
+// A tower whose weight takes nine tenths of what its soft bed resists: leaning by theta it is pushed by
+// H h + W theta h / 2 and held by k theta, so that each solve from where the last one ended adds nine tenths
+// of what that one added. To the square of theta, 0.02.
+TEST(SwayingTower, LeansUntilItsMomentsBalance) {
+  constexpr double kSide = 0.5, kHeight = 4.0, kPush = 10.0;
+  const Assembly tower =
+      testing::make_boxes({{.center = {0, 0, -0.5}, .size = {2, 2, 1}, .fixed = true},
+                           {.center = {0, 0, kHeight / 2}, .size = {kSide, kSide, kHeight}}});
+  const double toppling = free_weight(tower, testing::kG) * kHeight / 2, stiffness = toppling / 0.9;
+  const double compliance = kSide * kSide / stiffness;  // four points at kSide / 2
+  Case scene = testing::make_case(0.7, compliance, 0.01);
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.path.steps = 2;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
+  scene.loads.forces.push_back({BlockRef{1}, Vec3(0, 0, kHeight), Vec3(kPush, 0, 0), {}});
+  const double lean = kPush * kHeight / (stiffness - toppling);
+  for (const PathGeometry geometry : {PathGeometry::start, PathGeometry::end}) {
+    scene.analysis.path.geometry = geometry;
+    const PathResult path = run(scene, tower);
+    ASSERT_EQ(path.summary.status, Status::stable) << path.summary.message;
+    EXPECT_NEAR(path.rows.front()[1], lean * kHeight / 2, 0.05 * lean * kHeight / 2) << to_string(geometry);
+  }
+}
+
 // What is left of that arch where its supports have moved: its blocks become an assembly of their own, whose
 // open joints are wider than the margin. Three hinges leave one thrust, both ends of the range.
 TEST(Spreading, LeavesOneThrust) {
