@@ -284,7 +284,9 @@ void PathRun::judge(double started) {
     return;
   }
   summary_.status = last_status_;
-  summary_.message = fmt::format("the path ends at {}; {}; {}", reached, largest, last_failure_);
+  summary_.message = progress_.equilibria == 0
+                         ? fmt::format("the path has no equilibrium; {}", last_failure_)
+                         : fmt::format("the path ends at {}; {}; {}", reached, largest, last_failure_);
 }
 
 std::optional<Summary> PathRun::run() {

@@ -113,7 +113,7 @@ namespace {
 
 /// Of the smallest block, by which blocks move in a step. The geometry to which a longer one leads can be so
 /// far off that nothing balances the loads there.
-constexpr double kFar = 0.01;
+constexpr double kLongStep = 0.01;
 
 double displacement_of(const StaticSolution& solution) {
   return largest_speed(solution.step_solution.v) * solution.h;
@@ -131,7 +131,7 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
   StaticSolution solution = step();
   const bool at_end = geometry_ == PathGeometry::end;
   const bool far =
-      !options_.control && displacement_of(solution) > kFar * smallest_block_size(*model_.assembly);
+      !options_.control && displacement_of(solution) > kLongStep * smallest_block_size(*model_.assembly);
   if (solution.outcome == StaticOutcome::equilibrium && (at_end || far)) {
     solution = correct(std::move(solution));
     if (!at_end && solution.outcome != StaticOutcome::equilibrium && !solution.proven) solution = step();

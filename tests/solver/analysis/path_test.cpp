@@ -252,6 +252,9 @@ TEST(Path, EndsWhereNoEquilibriumExists) {
     EXPECT_NE(result.summary.message.find(part), std::string::npos) << result.summary.message;
   EXPECT_NEAR(result.largest_force(), 0.4 * weight, 0.1 / 64 * weight) << "the shortest step";
   EXPECT_EQ(result.frames.size(), result.rows.size());
+  scene.loads.forces.back().time = {};  // the whole push from the start
+  const std::string message = run(scene, assembly).summary.message;
+  EXPECT_TRUE(message.starts_with("the path has no equilibrium; moving at 0 s")) << message;
 }
 
 TEST(Path, RefusesAControlBlockThatDoesNotExist) {
