@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/model/thrust_joint.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/evaluation/thrust.hpp"
 #include "postproc/figures/range_text.hpp"
@@ -105,13 +106,18 @@ const RingSum* springing_of(const Evaluation& e, const Sheet& sheet) {
   return lowest < none ? &e.rings[lowest] : nullptr;
 }
 
-/// ", and at supports of higher courses", as of walls that hold the edges of a vault; "" without.
-const char* higher_text(const Evaluation& e, const Sheet& sheet) {
+constexpr const char* kAndHigher = ", and at supports of higher courses";
+
+/// True if supports hold higher courses too, as walls hold the edges of a vault or the ends of a barrel.
+bool is_held_higher(const Evaluation& e, const Sheet& sheet) {
   const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
-  const bool higher = std::ranges::any_of(e.reactions, [&, first = first, end = end](const Reaction& r) {
-    return r.ring > first && r.ring < end;
+  const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
+  return std::ranges::any_of(e.last.joints.wrenches, [&, first = first, end = end](const JointWrench& joint) {
+    const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid, joint.patch.plane.normal);
+    if (bearer < 0 || !e.assembly.blocks[bearer].fixed) return false;
+    const Block& pushing = e.assembly.blocks[bearer == joint.block_a ? joint.block_b : joint.block_a];
+    return pushing.ring > first && !(arch && pushing.ring + pushing.num_rings == end);
   });
-  return higher && sheet.thrust_lines != Sheet::ThrustLines::one ? ", and at supports of higher courses" : "";
 }
 
 std::string at_level(const std::string& name, const RingSum& cut) {
@@ -123,8 +129,8 @@ std::string at_level(const std::string& name, const RingSum& cut) {
 /// of an arch are counted from one side: where the sides differ, the other value is not known.
 std::string level_text(const Evaluation& e, const Sheet& sheet, bool differ) {
   const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
-  const std::string at_base =
-      at_level(springing == &base ? "springing" : "base", base) + higher_text(e, sheet);
+  const std::string at_base = at_level(springing == &base ? "springing" : "base", base) +
+                              (is_held_higher(e, sheet) ? kAndHigher : "");
   if (!springing || springing == &base || differ) return at_base;
   return fmt::format("{}; {}, {}", at_base, at_level("springing", *springing),
                      force_text(springing->radial_thrust));
@@ -177,8 +183,9 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
   Thrust side;  // that the range counts
   if (!pushing.empty() && pushing.front()->thrust_lines == Sheet::ThrustLines::one)
     side.towards = pushing.front()->towards(0.0);
-  const double length =
-      pushing.empty() ? 0.0 : length_of(e, *pushing.front(), thrusting(e, *pushing.front(), side));
+  const double length = pushing.empty() || is_held_higher(e, *pushing.front())
+                            ? 0.0
+                            : length_of(e, *pushing.front(), thrusting(e, *pushing.front(), side));
   if (length > 0.0 && std::isfinite(least(range)) && std::isfinite(greatest(range)))
     detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(range) / length),
                           force_text(greatest(range) / length), length_text(length));
@@ -186,7 +193,7 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
     const RingSum& base = base_of(e, *pushing.front());
     std::string level = springing_of(e, *pushing.front()) == &base ? "springing" : "base";
     if (side.towards) level += " towards " + direction_text(*side.towards);
-    detail += "; " + at_level(level, base) + higher_text(e, *pushing.front());
+    detail += "; " + at_level(level, base) + (is_held_higher(e, *pushing.front()) ? kAndHigher : "");
   }
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
@@ -209,10 +216,11 @@ std::string spread_over(const std::vector<Reaction>& supports) {
                      lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
 }
 
-/// The thrust per metre of support.
+/// The thrust per metre of support; "" where the supports of the first course do not bear it alone.
 std::string along_supports(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
   // Joints of a smaller extent do not have the length of the supports.
   if (e.summary.critical && e.summary.critical->parameter == "joint_extent") return "";
+  if (is_held_higher(e, sheet)) return "";
   const auto length = [&](const Thrust& thrust) { return length_of(e, sheet, thrusting(e, sheet, thrust)); };
   const auto per_length = [&](const Thrust& thrust) { return thrust.force / length(thrust); };
   const Thrust& most = *std::ranges::max_element(thrusts, {}, per_length);

@@ -17,8 +17,8 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
 /// displacement of its step. With PathGeometry::end, and in steps by time that move a block by more than a
 /// hundredth of the smallest, more solves follow, each from where the last one ended and at the same time,
 /// until one moves no block by more than 1e-8 of the smallest: forces and geometry then belong to each other.
-/// Where these solves move the blocks further than the step itself did, the structure does not stand. A long
-/// step that does not settle is only refused if a motion is proven.
+/// Where these solves move the blocks further than the step itself did, the structure may fall. With
+/// PathGeometry::start a long step that does not settle stays as it was, unless a motion is proven.
 class EquilibriumPath {
  public:
   EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options,

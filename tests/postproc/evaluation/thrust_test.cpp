@@ -124,6 +124,10 @@ TEST(Thrust, CountsSupportsOfEveryCourse) {
   e.rings.resize(2);
   e.rings[0].blocks = 1;
   EXPECT_EQ(outward_thrust(e), 48.0);
+  e.summary.status = Status::stable;
+  e.summary.weight_N = 100.0;
+  EXPECT_NE(thrust_answer(e).value().detail.find("m, and at supports of higher courses"), std::string::npos)
+      << thrust_answer(e)->detail;
 }
 
 TEST(Thrust, NeedsAnAxis) {
