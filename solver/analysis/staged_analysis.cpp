@@ -32,6 +32,7 @@ class ConstructionRun {
   bool advance_at_once();
   void record(const Construction& building, const SolvedStage& stage);
   void summarize(const Construction& building, const SolvedStage& stage);
+  bool is_due_for_frame() const;
   bool has_frame(const SolvedStage& stage) const;
   void save(const Construction& building);
   void write_tables() const;
@@ -76,7 +77,7 @@ bool ConstructionRun::lay_foundation() {
   if (below.empty()) return true;
   building_.lay(below, first);
   if (!staged_.carry || !building_.any_free()) return true;
-  const StaticSolution solution = building_.solve();
+  const StaticSolution solution = building_.solve(Construction::Need::forces);
   const Frame frame = stage_frame(building_, solution);
   summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
   if (solution.outcome == StaticOutcome::equilibrium) {
@@ -92,9 +93,15 @@ bool ConstructionRun::lay_foundation() {
 void ConstructionRun::advance() {
   const LaidBlocks& laid = stages_[progress_.next];
   building_.lay(laid.blocks, laid.course);
-  SolvedStage stage = solve_stage(&building_, &search_);
+  // Where stages before it have failed, only the verdict of a stage without frame is shown.
+  const bool shown = staged_.carry || is_due_for_frame() || progress_.first_failure.empty();
+  SolvedStage stage =
+      solve_stage(&building_, &search_, shown ? Construction::Need::forces : Construction::Need::verdict);
   record(building_, stage);
-  if (!staged_.carry) return;
+  if (!staged_.carry) {
+    if (stage.solution.outcome == StaticOutcome::equilibrium) building_.accept(stage.solution);
+    return;
+  }
   // A stage that fails is built with the least mortar with which it stands, if that is known.
   if (stage.solution.outcome != StaticOutcome::equilibrium && stage.least.bracket.found)
     stage.solution = building_.solve(stage.least.bracket.stable.value);
@@ -120,6 +127,7 @@ bool ConstructionRun::advance_at_once() {
     for (; laid <= i; ++laid) {
       building_.lay(stages_[first + laid].blocks, stages_[first + laid].course);
       separate[laid] = std::make_unique<Separate>(Separate{building_});
+      building_.suppose_standing();
     }
     return *separate[i];
   };
@@ -127,7 +135,7 @@ bool ConstructionRun::advance_at_once() {
     Separate& own = lay(i);
     if (num_threads() > 1) own.building.log_to([&own](const std::string& line) { own.log.push_back(line); });
     LeastSearch search = search_;
-    own.stage = solve_stage(&own.building, &search);
+    own.stage = solve_stage(&own.building, &search, Construction::Need::forces);
   };
   const auto record_next = [&](int i) {
     const std::unique_ptr<Separate> own = std::move(separate[i]);
@@ -139,16 +147,19 @@ bool ConstructionRun::advance_at_once() {
 }
 
 /// Of a long construction, every n-th stage has a frame, so that the frames of n blocks laid one by one take
-/// a space proportional to n, and so have the first stage that fails, those with which the construction may
-/// end, and the last one.
-bool ConstructionRun::has_frame(const SolvedStage& stage) const {
+/// a space proportional to n, and so has the last one.
+bool ConstructionRun::is_due_for_frame() const {
   constexpr int kMost = 50;
   const int number = progress_.next, count = static_cast<int>(stages_.size());
   const int every = (count + kMost - 1) / kMost;
+  return number % every == 0 || number + 1 == count;
+}
+
+/// So have the first stage that fails, and those with which the construction may end.
+bool ConstructionRun::has_frame(const SolvedStage& stage) const {
   const bool may_end = staged_.carry && !stage.least.bracket.found;
-  return number % every == 0 || number + 1 == count ||
-         (stage.solution.outcome != StaticOutcome::equilibrium &&
-          (may_end || progress_.first_failure.empty()));
+  return is_due_for_frame() || (stage.solution.outcome != StaticOutcome::equilibrium &&
+                                (may_end || progress_.first_failure.empty()));
 }
 
 /// Frame, and accuracy of the forces.
@@ -156,12 +167,11 @@ void ConstructionRun::summarize(const Construction& building, const SolvedStage&
   const LaidBlocks& laid = stages_[progress_.next];
   const StaticSolution& solution = stage.solution;
   const double time = laid.ring - 1 + laid.share;
-  const bool framed = has_frame(stage);
-  if (framed || solution.outcome != StaticOutcome::equilibrium) {
+  if (has_frame(stage)) {
     Frame frame = stage_frame(building, solution);
     frame.time = time;
     set_role(stage_role(solution.outcome), fmt::format("stage {}", progress_.next), &frame);
-    if (framed) sinks_.frame(frame);
+    sinks_.frame(frame);
     summarize_static(solution, frame, building.problem().model, building.options().tolerance, &summary_);
   } else {
     summarize_accuracy(solution, building.options().tolerance, &summary_);
@@ -180,7 +190,7 @@ void ConstructionRun::record(const Construction& building, const SolvedStage& st
   ++progress_.next;
   const std::string line =
       fmt::format("stage {:5d}  ring {:4d}  blocks {:6d}  {:<11}  |v|/(g h) {:9.2e}  {}", number, laid.ring,
-                  building.problem().model.num_free(), to_string(stage.solution.outcome),
+                  building.problem().num_blocks, to_string(stage.solution.outcome),
                   stage.solution.speed_ratio, least_note(stage, staged_.least));
   sinks_.log(line);
   sinks_.progress(static_cast<double>(progress_.next) / static_cast<double>(stages_.size()), line);

@@ -35,7 +35,7 @@ void Construction::lay(const std::vector<int>& blocks, int ring) {
     harden(before, stage_model(*site_, state_, {}));
   }
   for (const int block : blocks) state_.laid[block] = 1;
-  new_.insert(new_.end(), blocks.begin(), blocks.end());
+  state_.fresh.insert(state_.fresh.end(), blocks.begin(), blocks.end());
   place_beside_neighbours(blocks);
   if (site_->scene.supports.moving() && state_.complete()) move_supports();
 }
@@ -117,26 +117,50 @@ void Construction::harden(const Model& before, const Model& after) {
 std::optional<std::vector<int>> Construction::new_blocks() const {
   if (!site_->scene.analysis.staged.carry) return std::nullopt;
   std::vector<int> blocks;
-  for (const int block : new_)
+  for (const int block : state_.fresh)
     if (const int i = problem_.model.free_index[block]; i != ContactProblem::kFixed) blocks.push_back(i);
   if (static_cast<int>(blocks.size()) == problem_.model.num_free()) return std::nullopt;
   return blocks;
 }
 
-StaticSolution Construction::solve(std::optional<double> trial) {
-  problem_ = stage_problem(*site_, state_, trial);
+/// None where these blocks are most of the structure: its own solve then takes hardly longer.
+std::optional<StaticSolution> Construction::falling_part(const std::optional<double>& trial,
+                                                         const StaticOptions& options) {
+  constexpr int kShare = 2;
+  problem_ = stage_problem(*site_, state_, trial, FreeBlocks::fresh);
+  if (problem_.model.num_free() == 0 || kShare * problem_.model.num_free() > problem_.num_blocks)
+    return std::nullopt;
+  int solves = 0;
+  StaticSolution solution =
+      solve_breaking(problem_.model, problem_.rest, problem_.contacts, options, &problem_.memories, &solves);
+  if (solution.outcome != StaticOutcome::moving || !solution.proven) return std::nullopt;
+  return solution;
+}
+
+StaticSolution Construction::solve(const std::optional<double>& trial, Need need) {
   StaticOptions options = options_;
   if (trial) options.tolerance = verdict_options(site_->scene.analysis).tolerance;
+  if (need == Need::verdict)
+    if (std::optional<StaticSolution> motion = falling_part(trial, options)) return std::move(*motion);
+  problem_ = stage_problem(*site_, state_, trial, FreeBlocks::all);
   options.new_blocks = new_blocks();
   int solves = 0;
   return solve_breaking(problem_.model, problem_.rest, problem_.contacts, options, &problem_.memories,
                         &solves);
 }
 
+StaticSolution Construction::solve(Need need) {
+  return solve(std::nullopt, need);
+}
+
+StaticSolution Construction::solve(double trial) {
+  return solve(trial, Need::verdict);
+}
+
 void Construction::accept(const StaticSolution& solution) {
   CUPOLA_ASSERT(solution.outcome == StaticOutcome::equilibrium);
+  state_.fresh.clear();
   if (!site_->scene.analysis.staged.carry) return;
-  new_.clear();
   ContactMemories& memories = problem_.memories;
   update_memories(problem_.model, solution.step, solution.step_solution, problem_.rest, problem_.contacts,
                   static_step_options(options_, solution.h), &memories);

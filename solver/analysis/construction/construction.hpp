@@ -24,11 +24,17 @@ class Construction {
   /// Lays blocks; from now on `ring` is the youngest course, and older mortar has hardened accordingly.
   void lay(const std::vector<int>& blocks, int ring);
 
-  /// Static solve of what is laid. `trial`: value of the fresh property that analysis.staged.least names, for
-  /// a verdict only.
-  StaticSolution solve(std::optional<double> trial = std::nullopt);
-  /// Continues from the equilibrium that solve() found last, if analysis.staged.carry.
+  /// Static solve of what is laid. Need::verdict: if the blocks laid since the last equilibrium are proven to
+  /// fall while the others rest, so does the whole, and their motion is the answer.
+  enum class Need { forces, verdict };
+  StaticSolution solve(Need need);
+  /// With a value of the fresh property that analysis.staged.least names.
+  StaticSolution solve(double trial);
+  /// Takes what is laid as standing, as solve() found it last, and continues from there if
+  /// analysis.staged.carry.
   void accept(const StaticSolution& solution);
+  /// Takes what is laid as standing, though no solve has shown it.
+  void suppose_standing() { state_.fresh.clear(); }
 
   const BuildingSite& site() const { return *site_; }
   const StageProblem& problem() const { return problem_; }  ///< of the last solve
@@ -40,6 +46,9 @@ class Construction {
   bool any_free() const;
 
  private:
+  StaticSolution solve(const std::optional<double>& trial, Need need);
+  std::optional<StaticSolution> falling_part(const std::optional<double>& trial,
+                                             const StaticOptions& options);
   std::optional<std::vector<int>> new_blocks() const;
   void harden(const Model& before, const Model& after);
   void place_beside_neighbours(const std::vector<int>& blocks);
@@ -48,7 +57,6 @@ class Construction {
   std::shared_ptr<const BuildingSite> site_;
   StaticOptions options_;
   BuiltState state_;
-  std::vector<int> new_;  ///< blocks laid since the last equilibrium
   StageProblem problem_;
 };
 

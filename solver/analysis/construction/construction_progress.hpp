@@ -46,7 +46,7 @@ void visit(Archive& archive, CarriedTie& x) {
 }
 template <class Archive>
 void visit(Archive& archive, BuiltState& x) {
-  archive(x.ring, x.laid, x.displacement, x.rotation, x.joints, x.ties);
+  archive(x.ring, x.laid, x.fresh, x.displacement, x.rotation, x.joints, x.ties);
 }
 
 template <class Archive>

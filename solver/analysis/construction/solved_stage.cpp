@@ -51,9 +51,8 @@ constexpr CsvColumn<StageRow> kConstructionColumns[] = {
     {"stage", [](const StageRow& r) { return std::to_string(r.number); }},
     {"ring", [](const StageRow& r) { return std::to_string(r.laid.ring); }},
     {"laid", [](const StageRow& r) { return std::to_string(r.laid.blocks.size()); }},
-    {"blocks", [](const StageRow& r) { return std::to_string(r.building.problem().model.num_free()); }},
-    {"weight_N",
-     [](const StageRow& r) { return fmt::format("{:.9g}", r.building.problem().model.free_weight); }},
+    {"blocks", [](const StageRow& r) { return std::to_string(r.building.problem().num_blocks); }},
+    {"weight_N", [](const StageRow& r) { return fmt::format("{:.9g}", r.building.problem().weight); }},
     {"verdict", [](const StageRow& r) { return to_string(r.stage.solution.outcome); }},
     {"speed_ratio", [](const StageRow& r) { return fmt::format("{:.6e}", r.stage.solution.speed_ratio); }},
     {"least_stands",
@@ -97,11 +96,11 @@ constexpr CsvColumn<FailureRow> kFailureColumns[] = {
 
 }  // namespace
 
-SolvedStage solve_stage(Construction* building, LeastSearch* search) {
+SolvedStage solve_stage(Construction* building, LeastSearch* search, Construction::Need need) {
   SolvedStage stage;
   if (building->site().scene.analysis.staged.least != Least::none)
     stage.least = find_least(building, search, &stage);
-  stage.solution = building->solve();
+  stage.solution = building->solve(need);
   stage.iterations += stage.solution.iterations;
   if (stage.solution.outcome == StaticOutcome::moving)
     stage.falling = falling_blocks(building->problem().model, stage.solution.step_solution.v);

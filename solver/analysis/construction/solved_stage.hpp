@@ -37,7 +37,7 @@ struct SolvedStage {
 };
 
 /// Solves the stage that is laid. `search`: for the property that analysis.staged.least names.
-SolvedStage solve_stage(Construction* building, LeastSearch* search);
+SolvedStage solve_stage(Construction* building, LeastSearch* search, Construction::Need need);
 
 /// The search of the first stage.
 LeastSearch first_search(const Case& scene);

@@ -27,6 +27,22 @@ void add_ties(const BuiltState& state, StageProblem* problem) {
   }
 }
 
+/// Leaves the given blocks free, and loads only on them.
+void set_free(std::vector<int> blocks, Model* model) {
+  const Assembly& assembly = *model->assembly;
+  model->free_blocks = std::move(blocks);
+  model->free_index.assign(assembly.blocks.size(), ContactProblem::kFixed);
+  model->free_weight = 0.0;
+  for (int i = 0; i < model->num_free(); ++i) {
+    model->free_index[model->free_blocks[i]] = i;
+    model->free_weight += assembly.blocks[model->free_blocks[i]].mass * model->loads.gravity.norm();
+  }
+  model->block_weight = model->num_free() > 0 ? model->free_weight / model->num_free() : 0.0;
+  std::erase_if(model->loads.points, [&](const PointLoad& load) {
+    return model->free_index[load.block] == ContactProblem::kFixed;
+  });
+}
+
 }  // namespace
 
 bool BuiltState::complete() const {
@@ -63,24 +79,24 @@ Model stage_model(const BuildingSite& site, const BuiltState& state, const std::
     at.loads.dead_load_time = site.scene.loads.dead_load_time;
   }
   Model model = make_model(at, site.assembly);
-  std::erase_if(model.free_blocks,
-                [&](int block) { return !state.laid[block] || site.is_held(block, state.ring); });
-  model.free_index.assign(site.assembly.blocks.size(), ContactProblem::kFixed);
-  model.free_weight = 0.0;
-  for (int i = 0; i < model.num_free(); ++i) {
-    model.free_index[model.free_blocks[i]] = i;
-    model.free_weight += site.assembly.blocks[model.free_blocks[i]].mass * at.loads.gravity.norm();
-  }
-  model.block_weight = model.num_free() > 0 ? model.free_weight / model.num_free() : 0.0;
-  std::erase_if(model.loads.points, [&](const PointLoad& load) {
-    return model.free_index[load.block] == ContactProblem::kFixed;
-  });
+  std::vector<int> blocks = model.free_blocks;
+  std::erase_if(blocks, [&](int block) { return !state.laid[block] || site.is_held(block, state.ring); });
+  set_free(std::move(blocks), &model);
   return model;
 }
 
 StageProblem stage_problem(const BuildingSite& site, const BuiltState& state,
-                           const std::optional<double>& trial) {
-  StageProblem problem{stage_model(site, state, trial), {}, {}, {}, {}, {}};
+                           const std::optional<double>& trial, FreeBlocks which) {
+  StageProblem problem;
+  problem.model = stage_model(site, state, trial);
+  problem.num_blocks = problem.model.num_free();
+  problem.weight = problem.model.free_weight;
+  if (which == FreeBlocks::fresh) {
+    std::vector<int> fresh = state.fresh;
+    std::erase_if(fresh,
+                  [&](int block) { return problem.model.free_index[block] == ContactProblem::kFixed; });
+    set_free(std::move(fresh), &problem.model);
+  }
   problem.rest = state_at_rest(problem.model);
   problem.contacts.patches = site.contacts.patches;
   problem.memories.as_built = false;

@@ -26,6 +26,7 @@ struct CarriedTie {
 struct BuiltState {
   int ring = 0;                      ///< youngest course
   std::vector<char> laid;            ///< (num_blocks)
+  std::vector<int> fresh;            ///< blocks laid since the last equilibrium
   std::vector<Vec3> displacement;    ///< m, of the centroids (num_blocks)
   std::vector<Vec3> rotation;        ///< rad (num_blocks)
   std::vector<BuiltContact> joints;  ///< by contact of the complete assembly (nc)
@@ -56,7 +57,13 @@ struct StageProblem {
   State rest;             ///< as designed
   std::vector<int> rows;  ///< index of each contact in the complete assembly
   std::vector<int> ties;  ///< index of each tie in the complete model
+  int num_blocks = 0;     ///< laid and not held, of all blocks of the stage
+  double weight = 0.0;    ///< N, of these
 };
+
+/// Which blocks of a stage are free: all that are laid and not held, or, while the others rest, those laid
+/// since the last equilibrium.
+enum class FreeBlocks { all, fresh };
 
 /// The complete scene with the mortar of a stage, whose free blocks are those that the stage solves. Loads
 /// other than gravity act once the structure is complete. `trial`: value of the fresh property that
@@ -64,6 +71,6 @@ struct StageProblem {
 Model stage_model(const BuildingSite& site, const BuiltState& state, const std::optional<double>& trial);
 
 StageProblem stage_problem(const BuildingSite& site, const BuiltState& state,
-                           const std::optional<double>& trial);
+                           const std::optional<double>& trial, FreeBlocks which);
 
 }  // namespace cupola
