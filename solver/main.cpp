@@ -12,6 +12,7 @@
 #include "assembly/case/key_places.hpp"
 #include "assembly/program/batch.hpp"
 #include "assembly/program/command_line.hpp"
+#include "solver/runtime/blas_kernels.hpp"
 #include "solver/solve_case.hpp"
 
 namespace {
@@ -59,5 +60,6 @@ PreparedRun prepare(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cupola::use_kernels_of_processor(argv);
   return run_program("cupola-solve", argc, argv, prepare);
 }

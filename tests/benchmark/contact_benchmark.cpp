@@ -26,6 +26,7 @@
 #include "solver/contact/problem/whitening.hpp"
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
+#include "solver/runtime/blas_kernels.hpp"
 #include "solver/runtime/threads.hpp"
 #include "tests/arguments.hpp"
 #include "tests/benchmark/dome_problem.hpp"
@@ -369,6 +370,7 @@ void threads() {
 
 int main(int argc, char** argv) {
   using namespace cupola;
+  use_kernels_of_processor(argv);
   return run_program("contact_benchmark", [&] {
     const std::string usage =
         "contact_benchmark methods | gaps | stepping | motion | coulomb | scale | threads";

@@ -15,6 +15,7 @@
 #include "solver/dynamics/scene_options.hpp"
 #include "solver/dynamics/simulation.hpp"
 #include "solver/explain.hpp"
+#include "solver/runtime/blas_kernels.hpp"
 #include "tests/arguments.hpp"
 #include "tests/solver/scenes.hpp"
 
@@ -128,6 +129,7 @@ void print_table() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  cupola::use_kernels_of_processor(argv);
   return run_program("feature_benchmark", [&] {
     read_arguments(argc, argv, 0, 0, "feature_benchmark");
     print_table();

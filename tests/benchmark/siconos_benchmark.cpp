@@ -44,6 +44,7 @@ extern "C" {
 #include "assembly/program/program.hpp"
 #include "solver/contact/methods/solve_contact.hpp"
 #include "solver/contact/problem/residuals.hpp"
+#include "solver/runtime/blas_kernels.hpp"
 #include "tests/arguments.hpp"
 #include "tests/benchmark/dome_problem.hpp"
 #include "tests/reference/delassus.hpp"
@@ -357,6 +358,7 @@ void compare(const std::string& name, const DomeProblem& dome, double tolerance,
 
 int main(int argc, char** argv) {
   using namespace cupola;
+  use_kernels_of_processor(argv);
   return run_program("siconos_benchmark", [&] {
     const std::string usage = "siconos_benchmark [tolerance] [CPU seconds per run] [static|rigid]";
     const std::vector<std::string> arguments = read_arguments(argc, argv, 0, 3, usage);

@@ -51,6 +51,24 @@ TEST(Programs, AnswerHelpVersionSchemaAndCheck) {
   EXPECT_TRUE(folder.contents().empty());
 }
 
+// OpenBLAS prints the name of its kernels when it is loaded. Those of SSE3 are for processors without AVX2,
+// and for those that it does not know.
+TEST(Programs, TheSolverUsesTheKernelsOfItsProcessor) {
+#ifdef __x86_64__
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2";
+  const ProgramFolder folder;
+  const std::string cores = folder.run("OPENBLAS_VERBOSE=2 cupola-solve --version").err;
+  const size_t last = cores.rfind("Core: ");
+  ASSERT_NE(last, std::string::npos) << cores;
+  EXPECT_EQ(cores.find("Prescott", last), std::string::npos) << cores;
+  const std::string asked =
+      folder.run("OPENBLAS_VERBOSE=2 OPENBLAS_CORETYPE=Prescott cupola-solve --version").err;
+  EXPECT_EQ(asked, "Core: Prescott\n");
+#else
+  GTEST_SKIP() << "not x86";
+#endif
+}
+
 TEST(Programs, BadUsageReturnsTwoWithOneLine) {
   const ProgramFolder folder;
   expect_one_line(folder.run("cupola-generate"), "CASE.yaml is missing");

@@ -1,0 +1,10 @@
+#pragma once
+
+namespace cupola {
+
+/// Starts the program again, with the kernels of OpenBLAS for AVX2, if OpenBLAS does not know a processor that
+/// has it: it then takes those for SSE3, with which factors take three to four times as long. Respects
+/// OPENBLAS_CORETYPE. To be called first in main.
+void use_kernels_of_processor(char** argv);
+
+}  // namespace cupola
