@@ -77,35 +77,37 @@ size_t draw(const TemporaryFolder& folder, size_t first, std::vector<Drawing>* d
   for (size_t k = first; k < drawings->size(); ++k)
     commands += commands_of((*drawings)[k]) + fmt::format("print '{}'\n", kDrawn);
   write_text_atomically(script, commands);
-  const int status = run_process({"gnuplot", "-d", script}, log);  // -d: ignore the user's ~/.gnuplot
-  if (status == kNotFound) {
-    for (Drawing& drawing : *drawings) drawing.problem = "gnuplot is not installed";
-    return drawings->size();
+  write_text_atomically(log, "");  // a program that does not start writes none
+  std::string cause;
+  try {
+    const int status = run_process({"gnuplot", "-d", script}, log);  // -d: ignore the user's ~/.gnuplot
+    if (status == 0) return drawings->size();
+    if (status == kNotFound) {
+      for (Drawing& drawing : *drawings) drawing.problem = "gnuplot is not installed";
+      return drawings->size();
+    }
+    cause = "gnuplot: " + last_line(read_text(log));
+  } catch (const SystemError& error) {
+    cause = error.what();
   }
-  if (status == 0) return drawings->size();
-  const std::string text = read_text(log);
-  const size_t failed = first + num_drawn(text);
-  if (failed >= drawings->size()) throw SystemError("gnuplot: " + last_line(text));
-  Drawing& drawing = (*drawings)[failed];
-  drawing.problem = "gnuplot: " + last_line(text);
-  if (drawing.problem.find("out of memory") != std::string::npos)
-    throw SystemError(fmt::format("{}: gnuplot ran out of memory", drawing.path));
+  const size_t failed = first + num_drawn(read_text(log));
+  if (failed < drawings->size()) (*drawings)[failed].problem = cause;
   return failed;
 }
 
 /// Moves a complete file to its place, or removes the one that an earlier run left.
-void put_in_place(const Drawing& drawing) {
-  if (!drawing.problem.empty()) {
-    std::filesystem::remove(drawing.path);
+void put_in_place(Drawing* drawing) {
+  // Without enough memory, Cairo writes nothing and reports no error.
+  if (drawing->problem.empty() &&
+      (!std::filesystem::exists(drawing->side) || std::filesystem::file_size(drawing->side) == 0))
+    drawing->problem = "gnuplot wrote an empty file, as it does when memory runs out";
+  if (!drawing->problem.empty()) {
+    std::filesystem::remove(drawing->path);
     return;
   }
-  // Without enough memory, Cairo writes nothing and reports no error.
-  if (!std::filesystem::exists(drawing.side) || std::filesystem::file_size(drawing.side) == 0)
-    throw SystemError(
-        fmt::format("{}: gnuplot wrote an empty file, as it does when memory runs out", drawing.path));
-  std::string text = read_text(drawing.side);
-  if (drawing.ending == ".pdf") remove_date(&text);
-  write_text_atomically(drawing.path, text);
+  std::string text = read_text(drawing->side);
+  if (drawing->ending == ".pdf") remove_date(&text);
+  write_text_atomically(drawing->path, text);
 }
 
 }  // namespace
@@ -138,8 +140,8 @@ std::vector<std::string> draw_figures(const std::string& folder, const std::vect
   }
   std::vector<std::string> problems;
   const Figure* reported = nullptr;
-  for (const Drawing& drawing : drawings) {
-    put_in_place(drawing);
+  for (Drawing& drawing : drawings) {
+    put_in_place(&drawing);
     if (drawing.problem.empty() || reported == drawing.figure) continue;
     reported = drawing.figure;
     problems.push_back(fmt::format("figure {} was not drawn: {}", reported->name, drawing.problem));

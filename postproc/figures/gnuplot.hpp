@@ -20,8 +20,8 @@ struct Figure {
 std::string picture_file(const std::string& folder, const Figure& figure);
 
 /// Writes NAME.gp and NAME.svg with NAME.pdf, or NAME.png unless `vector`, into a folder. Returns one line
-/// for each figure that could not be drawn; a missing or failing gnuplot is no error, since the numbers do
-/// not depend on it.
+/// for each figure that could not be drawn; a gnuplot that is missing, fails or is killed is no error, since
+/// the numbers do not depend on it.
 std::vector<std::string> draw_figures(const std::string& folder, const std::vector<Figure>& figures);
 
 /// A named data block of gnuplot, `$NAME << EOD`, with one row per line.

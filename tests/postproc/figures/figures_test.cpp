@@ -307,7 +307,8 @@ TEST(Figures, DoNotDependOnTheHomeFolder) {
   EXPECT_EQ(read_text(home + "/line.svg"), read_text(plain + "/line.svg"));
 }
 
-// gnuplot ends at the first error, and its settings would reach the next figure.
+// gnuplot ends at the first error, and its settings would reach the next figure. What draws no figure, be it a
+// signal or an empty file, must not end the page with its tables.
 TEST(Figures, DoNotDependOnEachOther) {
   const auto figure = [](const char* name, const char* commands) {
     Figure made;
@@ -318,14 +319,19 @@ TEST(Figures, DoNotDependOnEachOther) {
   const Figure plain = figure("plain", "plot x\n");
   const std::string alone = test::fresh_folder("alone"), together = test::fresh_folder("together");
   ASSERT_TRUE(draw_figures(alone, {plain}).empty());
-  const std::vector<std::string> problems =
-      draw_figures(together, {figure("first", "set logscale y\nset multiplot\nplot 1\nunset multiplot\n"),
-                              plain, figure("broken", "plot nothing\n"),
-                              figure("worse", "plot '/no/such/file'\n"), figure("last", "plot x\n")});
-  ASSERT_EQ(problems.size(), 2u);
+  const std::vector<std::string> problems = draw_figures(
+      together, {figure("first", "set logscale y\nset multiplot\nplot 1\nunset multiplot\n"), plain,
+                 figure("broken", "plot nothing\n"), figure("worse", "plot '/no/such/file'\n"),
+                 figure("killed", "system 'kill -9 $PPID'\n"), figure("empty", "set output\n"),
+                 figure("last", "plot x\n")});
+  ASSERT_EQ(problems.size(), 4u);
   EXPECT_TRUE(problems[0].starts_with("figure broken was not drawn: gnuplot: ")) << problems[0];
   EXPECT_NE(problems[0].find("undefined variable: nothing"), std::string::npos) << problems[0];
   EXPECT_TRUE(problems[1].starts_with("figure worse was not drawn: gnuplot: ")) << problems[1];
+  EXPECT_EQ(problems[2],
+            "figure killed was not drawn: gnuplot: ended by signal 9, as happens when memory runs out");
+  EXPECT_TRUE(problems[3].starts_with("figure empty was not drawn: gnuplot wrote an empty file"))
+      << problems[3];
   EXPECT_EQ(read_text(together + "/plain.pdf"), read_text(alone + "/plain.pdf"));
   for (const char* file : {"/first.pdf", "/last.svg", "/last.pdf"})
     EXPECT_TRUE(std::filesystem::exists(together + file)) << file;
