@@ -1,7 +1,6 @@
 #include "postproc/analyse.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <future>
@@ -47,26 +46,23 @@ const FrameEvaluation* frame_at(size_t index, const ResultsReader& results, Eval
 
 /// The frames that show the motion: mechanisms, or instants of a motion in time; at most four, evenly spaced,
 /// with the last. `moving`: all that could be shown.
-std::vector<MovedBlocks> moments_of(const std::vector<size_t>& moving, const ResultsReader& results,
-                                    Evaluation* e) {
+std::vector<Frame> moments_of(const std::vector<size_t>& moving, const ResultsReader& results,
+                              Evaluation* e) {
   constexpr size_t kMost = 4;
-  std::vector<MovedBlocks> moments;
+  std::vector<Frame> moments;
   const size_t count = std::min(moving.size(), kMost);
   for (size_t i = 1; i <= count; ++i) {
     FrameEvaluation other;
     const FrameEvaluation* frame = frame_at(moving[moving.size() * i / count - 1], results, e, &other);
-    if (frame == nullptr) continue;
-    MovedBlocks moment{frame->frame.label, frame->frame.blocks, {}};
-    if (is_stage(frame->frame.role)) moment.top_ring = static_cast<int>(std::ceil(frame->frame.time));
-    moments.push_back(std::move(moment));
+    if (frame != nullptr) moments.push_back(frame->frame);
   }
   return moments;
 }
 
 /// Writes the displaced blocks of every readable frame, adds them to the film, and returns those that the
 /// picture of the motion shows.
-std::vector<MovedBlocks> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
-                                      Film* film) {
+std::vector<Frame> write_frames(const ResultsReader& results, const std::string& folder, Evaluation* e,
+                                Film* film) {
   DisplacedBlocks blocks(*e);
   std::vector<PvdEntry> entries;
   std::vector<size_t> moving;
@@ -115,7 +111,7 @@ Drawn draw(const AnalyseRequest& request, const ResultsReader& results, const st
     return draw_figures(in_folder(folder, "figures"), drawn.figures);
   });
   Film film(*e);
-  const std::vector<MovedBlocks> motion = write_frames(results, folder, e, &film);
+  const std::vector<Frame> motion = write_frames(results, folder, e, &film);
   write_meshes(*e, folder);
   drawn.viewer = viewer_html(*e, film);
   for (std::string& problem : drawing.get()) e->warnings.push_back(std::move(problem));

@@ -41,8 +41,7 @@ namespace {
 
 }  // namespace
 
-std::string draw_pictures(const Evaluation& e, const std::vector<MovedBlocks>& motion,
-                          const std::string& folder) {
+std::string draw_pictures(const Evaluation& e, const std::vector<Frame>& motion, const std::string& folder) {
   make_folder(folder);
   const std::string log = folder + "/pictures.log";
   std::filesystem::remove(log);

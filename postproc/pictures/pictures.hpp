@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,17 +7,10 @@
 
 namespace cupola {
 
-/// Where the blocks are at one instant.
-struct MovedBlocks {
-  std::string caption;
-  BlockTable blocks;
-  std::optional<int> top_ring;  ///< blocks laid after it do not exist yet
-};
-
 /// Draws the standard views of a run into the folder `pictures`, as PNG: `overview`, `inside`, `forces`,
 /// `thrust`, `cracks` and `motion`, those for which the run has data. `motion`: mechanisms, or instants of a
 /// motion. Returns why there are none or fewer; "" if all were drawn. Requires Xvfb.
-std::string draw_pictures(const Evaluation& evaluation, const std::vector<MovedBlocks>& motion,
+std::string draw_pictures(const Evaluation& evaluation, const std::vector<Frame>& motion,
                           const std::string& folder);
 
 /// Writes open_in_paraview.py into the folder of a run, which opens the run in ParaView.

@@ -6,7 +6,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/export/arrows.hpp"
-#include "assembly/model/laying_course.hpp"
+#include "postproc/mechanics/stage_blocks.hpp"
 #include "postproc/pictures/view_parts.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/mesh_parts.hpp"
@@ -195,12 +195,13 @@ bool draw_cracks(const Pictured& run, Painter* painter) {
 }
 
 /// The blocks that exist at one instant, where they are.
-Coloured moved_blocks(const Pictured& run, const MovedBlocks& moved) {
+Coloured moved_blocks(const Pictured& run, const Frame& moved) {
+  constexpr int kNoneHeld = -1;
+  const std::vector<bool> left_out = blocks_left_out(run.e.assembly, moved, kNoneHeld);
   Coloured blocks;
   for (size_t b = 0; b < run.blocks.size(); ++b) {
+    if (!left_out.empty() && left_out[b]) continue;
     const Block& block = run.e.assembly.blocks[b];
-    const Assembly& assembly = run.e.assembly;
-    if (moved.top_ring && laying_course(assembly, block) > laying_course(assembly, *moved.top_ring)) continue;
     const Eigen::Vector4d& q = moved.blocks.quaternion_wxyz[b];
     const Eigen::Quaterniond turn(q[0], q[1], q[2], q[3]);
     BlockSurface surface = run.blocks[b];
@@ -213,13 +214,13 @@ Coloured moved_blocks(const Pictured& run, const MovedBlocks& moved) {
 /// Instants of the motion side by side, to one scale.
 bool draw_motion(const Pictured& run, Painter* painter) {
   std::vector<Coloured> instants;
-  for (const MovedBlocks& moved : run.motion) instants.push_back(moved_blocks(run, moved));
+  for (const Frame& moved : run.motion) instants.push_back(moved_blocks(run, moved));
   const double width = 1.0 / static_cast<double>(run.motion.size());
   for (size_t i = 0; i < instants.size(); ++i) {
     painter->new_view(width * static_cast<double>(i), width * static_cast<double>(i + 1));
     instants[i].paint(painter);
     for (const Coloured& other : instants) painter->include(other.surface.vertices);
-    painter->add_caption(run.motion[i].caption);
+    painter->add_caption(run.motion[i].label);
     painter->look(view_direction(run.e), run.e.up);
   }
   return !instants.empty();

@@ -12,7 +12,7 @@ namespace cupola {
 struct Pictured {
   const Evaluation& e;
   std::vector<BlockSurface> blocks;
-  std::vector<MovedBlocks> motion;
+  std::vector<Frame> motion;
 };
 
 /// A standard view: a file name, and a function that draws it, or returns false if the run has no data for

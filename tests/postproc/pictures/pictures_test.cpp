@@ -23,7 +23,7 @@ TEST(Pictures, ShowBlocksForcesAndMotion) {
   if (!has_xvfb()) GTEST_SKIP() << "Xvfb is not installed";
   const Evaluation e = test::column_evaluation(0.5, 0.3);
   const std::string folder = test::fresh_folder("drawn");
-  EXPECT_EQ(draw_pictures(e, {{"after 1 s", e.last.frame.blocks, {}}}, folder), "");
+  EXPECT_EQ(draw_pictures(e, {e.last.frame}, folder), "");
   for (const char* name : {"overview", "forces", "motion"}) {
     const std::string png = read_text(folder + "/" + name + ".png");
     EXPECT_EQ(png.substr(1, 3), "PNG") << name;
@@ -32,6 +32,22 @@ TEST(Pictures, ShowBlocksForcesAndMotion) {
   EXPECT_FALSE(std::filesystem::exists(folder + "/inside.png")) << "a column has no inside";
   EXPECT_FALSE(std::filesystem::exists(folder + "/exploded.png")) << "it has one wythe";
   EXPECT_FALSE(std::filesystem::exists(folder + "/pictures.log"));
+}
+
+// A block of an open course that has no joints is not laid.
+TEST(Pictures, ShowOfAnOpenCourseTheBlocksThatAreLaid) {
+  if (!has_xvfb()) GTEST_SKIP() << "Xvfb is not installed";
+  const Evaluation e = test::column_evaluation(0.5, 0.3);
+  const auto picture = [&](double time) {
+    Frame stage;
+    stage.time = time;
+    stage.role = FrameRole::failed_stage;
+    stage.blocks = e.last.frame.blocks;
+    const std::string folder = test::fresh_folder("stage");
+    EXPECT_EQ(draw_pictures(e, {stage}, folder), "");
+    return read_text(folder + "/motion.png");
+  };
+  EXPECT_TRUE(picture(0.5) == picture(0.0));
 }
 
 TEST(Pictures, TakeAShellWithWythesApart) {
