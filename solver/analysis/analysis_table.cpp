@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
+#include "assembly/model/laying_course.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/dynamics/laying_order.hpp"
 #include "solver/dynamics/scene_options.hpp"
@@ -93,17 +95,22 @@ std::string motion_features(const Case& scene) {
 
 // --- staged
 
-/// Each stage counts with its share of the courses of the complete model.
+/// Each stage counts with its share of the free blocks, its course as if it were complete.
 double solves_of_stages(const Case& scene, const Assembly& assembly) {
   constexpr double kSolvesPerSearch = 4.0;  // most stages confirm the bracket of the stage before
   const StagedConstruction& staged = scene.analysis.staged;
-  const int num_courses = 1 + std::max(0, std::ranges::max(laying_courses(assembly)));
-  double solves = 0.0;
-  for (const LaidBlocks& stage : laying_order(assembly, staged)) {
-    const int courses =
-        staged.hold_below < 0 ? stage.course + 1 : std::min(stage.course, staged.hold_below) + 1;
-    solves += static_cast<double>(courses) / num_courses;
-  }
+  const auto solved_with = [&](int course) {
+    return std::ranges::count_if(assembly.blocks, [&](const Block& block) {
+      return !block.fixed && laying_course(assembly, block) <= course &&
+             !is_held(assembly, block, course, staged.hold_below);
+    });
+  };
+  std::map<int, std::ptrdiff_t> stages;  // of each course
+  for (const LaidBlocks& stage : laying_order(assembly, staged)) ++stages[stage.course];
+  std::ptrdiff_t solved = 0;
+  for (const auto& [course, count] : stages) solved += count * solved_with(course);
+  const auto free = std::max<std::ptrdiff_t>(1, std::ranges::count(assembly.blocks, false, &Block::fixed));
+  const double solves = static_cast<double>(solved) / static_cast<double>(free);
   return staged.least == StagedConstruction::Least::none ? solves : (1.0 + kSolvesPerSearch) * solves;
 }
 

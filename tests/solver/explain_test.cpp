@@ -10,6 +10,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/analysis_table.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::explain_test {
@@ -138,6 +139,24 @@ TEST(ExplainPath, TimesItsFirstEquilibria) {
   EXPECT_EQ(few.basis.find("3 equilibria, "), 0u) << few.basis;
   EXPECT_GT(many.seconds, 10.0 * few.seconds) << "a hundred times as many steps";
   EXPECT_EQ(many.left_out, "");
+}
+
+// Two abutments of two courses beside each other (rings 0, 1 and 2, 3) under an arch of five stones (4 to 8),
+// which is laid from both springings: solved are 1, 2, 2, 2, 4, 4 and 3 of the nine blocks, because each
+// abutment keeps its upper course below the springers.
+TEST(ExplainStaged, CountsTheBlocksThatStagesSolveOfEveryMember) {
+  Assembly bridge;
+  bridge.num_rings = 9;
+  bridge.sheets = {
+      {.name = "abutment", .num_rings = 2},
+      {.name = "abutment", .first_ring = 2, .num_rings = 2},
+      {.name = "arch", .first_ring = 4, .num_rings = 5, .thrust_lines = Sheet::ThrustLines::one}};
+  for (int ring = 0; ring < bridge.num_rings; ++ring) testing::add_block({.ring = ring}, &bridge);
+  testing::add_block({.fixed = true}, &bridge);
+  Case scene;
+  scene.analysis.staged.least = StagedConstruction::Least::none;
+  scene.analysis.staged.hold_below = 1;
+  EXPECT_EQ(analysis_traits(AnalysisType::staged).num_solves(scene, bridge), 2.0);
 }
 
 TEST(ExplainMotion, RefusesWhatTheRunRefuses) {
