@@ -85,15 +85,14 @@ table.claims { width: 100%; table-layout: fixed }
 )";
 
 std::string paragraph(const char* css, const std::string& text) {
-  return text.empty() ? text : fmt::format("<p class=\"{}\">{}</p>", css, markup_text(text));
+  return text.empty() ? text : fmt::format("<p class=\"{}\">{}</p>", css, html_text(text));
 }
 
 std::string claim_row(const Claim& claim, const ClaimResult& result) {
   const bool good = result.verdict == Verdict::reproduced || result.verdict == Verdict::holds;
   const bool undecided = result.verdict == Verdict::open || result.verdict == Verdict::not_run;
   std::string statement = paragraph("", claim.says);
-  if (!claim.quote.empty())
-    statement += fmt::format("<blockquote>“{}”</blockquote>", markup_text(claim.quote));
+  if (!claim.quote.empty()) statement += fmt::format("<blockquote>“{}”</blockquote>", html_text(claim.quote));
   statement += paragraph("small", remark(result));
   std::string number = paragraph("value", shown_number(claim, result)) + paragraph("", claim.number);
   number += paragraph("small", limits_text(claim.paper, "paper"));
@@ -102,7 +101,7 @@ std::string claim_row(const Claim& claim, const ClaimResult& result) {
                      good        ? "good"
                      : undecided ? "open"
                                  : "bad",
-                     to_string(result.verdict), markup_text(claim.source), statement, number);
+                     to_string(result.verdict), html_text(claim.source), statement, number);
 }
 
 }  // namespace
@@ -172,10 +171,10 @@ std::string figures_html(const std::vector<ClaimFigure>& figures, const std::str
     const std::string path = fmt::format("{}/{}/post/{}", runs, figure.run, figure.picture);
     std::string picture = html_picture(path, figure.shows);
     if (picture.empty())
-      picture = markup_text(fmt::format("Not drawn yet: {} of the run {}.", figure.picture, figure.run));
+      picture = html_text(fmt::format("Not drawn yet: {} of the run {}.", figure.picture, figure.run));
     out += fmt::format(
         "<figure>\n{}\n<figcaption><strong>{}</strong> {} <small>{}</small></figcaption>\n</figure>\n",
-        picture, markup_text(figure.source), markup_text(figure.shows), markup_text(figure.run));
+        picture, html_text(figure.source), html_text(figure.shows), html_text(figure.run));
   }
   return out.empty() ? out : "<h2>Pictures of the runs</h2>\n" + out;
 }

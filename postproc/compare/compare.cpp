@@ -173,23 +173,23 @@ std::string comparison_html(const std::vector<PostSummary>& runs, const std::vec
   const std::vector<std::string> labels = run_labels(runs.size());
   std::string body = "<h1>Comparison</h1>\n<dl>\n";
   for (size_t i = 0; i < runs.size(); ++i)
-    body += fmt::format("<dt>{}</dt><dd>{} <small>({}, {})</small></dd>\n", markup_text(labels[i]),
-                        report_link(runs[i].title, folders[i], output_folder), markup_text(runs[i].status),
-                        markup_text(folders[i]));
+    body += fmt::format("<dt>{}</dt><dd>{} <small>({}, {})</small></dd>\n", html_text(labels[i]),
+                        report_link(runs[i].title, folders[i], output_folder), html_text(runs[i].status),
+                        html_text(folders[i]));
   body += "</dl>\n";
   for (const std::string& problem : problems)
-    body += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(problem) + "</p>\n";
+    body += "<p class=\"warning\"><strong>Warning:</strong> " + html_text(problem) + "</p>\n";
   body += views_html(labels, folders);
   body += "<h2>Findings</h2>\n<ul>\n";
-  for (const std::string& sentence : findings(runs)) body += "<li>" + markup_text(sentence) + "</li>\n";
+  for (const std::string& sentence : findings(runs)) body += "<li>" + html_text(sentence) + "</li>\n";
   body += "</ul>\n<h2>Numbers</h2>\n" + html_table(plain_table(runs));
   constexpr int kHalfPage = 500;  // px
   body += "<h2>Over the height</h2>\n<div class=\"side\">\n";
   for (const Figure& figure : figures)
     body += fmt::format("<figure{}>{}<figcaption><strong>{}.</strong> {}</figcaption></figure>\n",
                         figure.width > kHalfPage ? " class=\"wide\"" : "",
-                        figure_picture(figure_folder, figure, figure.title), markup_text(figure.title),
-                        markup_text(figure.caption));
+                        figure_picture(figure_folder, figure, figure.title), html_text(figure.title),
+                        html_text(figure.caption));
   body += "</div>\n";
   if (!maps.empty()) body += "<h2>Over the shell</h2>\n" + maps_html(maps, figure_folder);
   return html_page("Comparison", body);

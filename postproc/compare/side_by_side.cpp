@@ -63,7 +63,7 @@ std::vector<Figure> common_maps(const std::vector<std::string>& folders,
 
 std::string figure_picture(const std::string& folder, const Figure& figure, const std::string& alternative) {
   const std::string picture = html_picture(picture_file(folder, figure), alternative);
-  return picture.empty() ? "Not drawn: " + markup_text(alternative) : picture;
+  return picture.empty() ? "Not drawn: " + html_text(alternative) : picture;
 }
 
 std::string maps_html(const std::vector<Figure>& maps, const std::string& figure_folder) {
@@ -73,10 +73,10 @@ std::string maps_html(const std::vector<Figure>& maps, const std::string& figure
     if (map.title != title)
       out += fmt::format(
           "{}<h3>{}</h3>\n<p>{} The scales are the same for all runs.</p>\n<div class=\"side\">\n",
-          out.empty() ? "" : "</div>\n", markup_text(map.title), markup_text(map.caption));
+          out.empty() ? "" : "</div>\n", html_text(map.title), html_text(map.caption));
     title = map.title;
     out += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
-                       figure_picture(figure_folder, map, title + ", " + label), markup_text(label));
+                       figure_picture(figure_folder, map, title + ", " + label), html_text(label));
   }
   return out.empty() ? "" : out + "</div>\n";
 }

@@ -93,14 +93,14 @@ std::string how_sure(const Evaluation& e) {
 
 std::string verdict_html(const std::string& words, const std::string& reason, bool good) {
   return fmt::format("<p class=\"verdict{}\"><strong>{}</strong> <small>{}</small></p>\n", good ? "" : " bad",
-                     markup_text(words), markup_text(reason));
+                     html_text(words), html_text(reason));
 }
 
 std::string numbers_html(const std::vector<KeyNumber>& numbers) {
   std::string out = "<div class=\"key-numbers\">\n";
   for (const KeyNumber& n : numbers)
-    out += fmt::format("<div><span>{}</span><strong>{}</strong><small>{}</small></div>\n",
-                       markup_text(n.name), markup_text(n.value), markup_text(n.detail));
+    out += fmt::format("<div><span>{}</span><strong>{}</strong><small>{}</small></div>\n", html_text(n.name),
+                       html_text(n.value), html_text(n.detail));
   return out + "</div>\n";
 }
 
@@ -132,7 +132,7 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
                     construction->worst});
   out += numbers_html(numbers);
   if (const std::string certain = certain_sentence(e); !certain.empty())
-    out += "<p class=\"certain\">" + markup_text(certain) + "</p>\n";
+    out += "<p class=\"certain\">" + html_text(certain) + "</p>\n";
   return "<div class=\"first\">\n" + out + viewer + worst_joints_html(e) + "</div>\n";
 }
 

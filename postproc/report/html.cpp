@@ -72,10 +72,20 @@ dt { color: var(--soft); } dd { margin: 0; }
 
 }  // namespace
 
+std::string html_text(const std::string& text) {
+  std::string out = markup_text(text);
+  for (size_t open = 0; (open = out.find('`', open)) != std::string::npos;) {
+    const size_t close = out.find('`', open + 1);
+    if (close == std::string::npos) break;
+    out.replace(close, 1, "</code>").replace(open, 1, "<code>");
+  }
+  return out;
+}
+
 std::string report_link(const std::string& text, const std::string& post_folder,
                         const std::string& page_folder) {
   const std::filesystem::path report = std::filesystem::absolute(post_folder) / "report.html";
-  if (!std::filesystem::exists(report)) return markup_text(text);
+  if (!std::filesystem::exists(report)) return html_text(text);
   const std::string relative =
       report.lexically_normal()
           .lexically_relative(std::filesystem::absolute(page_folder).lexically_normal())
@@ -103,9 +113,9 @@ std::string html_table(const Table& table) {
   std::string out = "<div class=\"scroll\" tabindex=\"0\"><table>\n<thead><tr>";
   for (size_t i = 0; i < table.columns.size(); ++i) {
     const Table::Column& column = table.columns[i];
-    out += fmt::format("<th{}>{}<small>{}</small></th>", text[i] ? " class=\"text\"" : "",
-                       markup_text(column.meaning.empty() ? column.key : column.meaning),
-                       markup_text(column.unit));
+    out +=
+        fmt::format("<th{}>{}<small>{}</small></th>", text[i] ? " class=\"text\"" : "",
+                    html_text(column.meaning.empty() ? column.key : column.meaning), html_text(column.unit));
   }
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
@@ -113,7 +123,7 @@ std::string html_table(const Table& table) {
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
       out += fmt::format("<td{}>{}</td>", text[i] ? " class=\"text\"" : "",
-                         markup_text(to_display(row[i], table.columns[i].floor)));
+                         html_text(to_display(row[i], table.columns[i].floor)));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -7,6 +7,9 @@
 
 namespace cupola {
 
+/// Escaped text of a page, not of an attribute, in which what stands between backticks is set as code.
+std::string html_text(const std::string& text);
+
 /// A link to report.html in the folder post/ of a run, from a page in another folder; the text alone if there
 /// is none.
 std::string report_link(const std::string& text, const std::string& post_folder,

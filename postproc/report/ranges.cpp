@@ -140,9 +140,9 @@ std::string ranges_section(const Evaluation& e, const std::string& picture) {
         "<p>The first {} of {} quantities; all are in <a href=\"ranges.csv\">ranges.csv</a>.</p>\n",
         shown.size(), ranges.size());
   out += picture + "<ul>\n";
-  for (const ForceRange& range : shown) out += "<li>" + markup_text(range_sentence(range)) + "</li>\n";
+  for (const ForceRange& range : shown) out += "<li>" + html_text(range_sentence(range)) + "</li>\n";
   out += "</ul>\n";
-  for (const std::string& condition : range_conditions(e)) out += "<p>" + markup_text(condition) + "</p>\n";
+  for (const std::string& condition : range_conditions(e)) out += "<p>" + html_text(condition) + "</p>\n";
   return out;
 }
 

@@ -29,12 +29,12 @@ std::string floor_text(const Evaluation& e) {
 }
 
 std::string paragraph(const std::string& text) {
-  return "<p>" + markup_text(text) + "</p>\n";
+  return "<p>" + html_text(text) + "</p>\n";
 }
 
 std::string list_section(const std::string& heading, const std::vector<std::string>& sentences) {
   std::string out = "<h2>" + heading + "</h2>\n<ul>\n";
-  for (const std::string& sentence : sentences) out += "<li>" + markup_text(sentence) + "</li>\n";
+  for (const std::string& sentence : sentences) out += "<li>" + html_text(sentence) + "</li>\n";
   return out + "</ul>\n";
 }
 
@@ -47,9 +47,9 @@ std::string title_of(const Case& scene) {
 /// The title, and below it the settings that it names: "Dome (with joints.friction=0.3)".
 std::string heading(const std::string& title) {
   const size_t settings = title.find(" (with ");
-  std::string out = "<h1>" + markup_text(title.substr(0, settings)) + "</h1>\n";
+  std::string out = "<h1>" + html_text(title.substr(0, settings)) + "</h1>\n";
   if (settings != std::string::npos)
-    out += "<p class=\"settings\">" + markup_text(title.substr(settings + 1)) + "</p>\n";
+    out += "<p class=\"settings\">" + html_text(title.substr(settings + 1)) + "</p>\n";
   return out;
 }
 
@@ -74,7 +74,7 @@ std::string unit_weight_text(const Evaluation& e) {
 std::string case_section(const Evaluation& e) {
   std::string out = "<h2>The case</h2>\n<dl>\n";
   const auto row = [&out](const std::string& name, const std::string& value) {
-    out += "<dt>" + markup_text(name) + "</dt><dd>" + markup_text(value) + "</dd>\n";
+    out += "<dt>" + html_text(name) + "</dt><dd>" + html_text(value) + "</dd>\n";
   };
   const Summary& s = e.summary;
   row("Analysis", fmt::format("{}, method {}, friction law {}, tangential spring {}", to_string(s.analysis),
@@ -110,7 +110,7 @@ std::string figure_html(const std::string& picture, const std::string& title, co
                         bool half = false) {
   if (picture.empty()) return "";
   return fmt::format("<figure{}>\n{}\n<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
-                     half ? " class=\"half\"" : "", picture, markup_text(title), markup_text(caption));
+                     half ? " class=\"half\"" : "", picture, html_text(title), html_text(caption));
 }
 
 std::string figure_html(const ReportInput& input, const Figure& figure) {
@@ -195,12 +195,12 @@ std::string tables_html(const std::vector<Table>& tables, bool equilibrium) {
     if (!equilibrium && interprets(table)) continue;
     const std::string link = fmt::format("<a href=\"{0}.csv\">{0}.csv</a>", markup_text(table.name));
     if (table.num_rows() > kMaxRows) {
-      out += fmt::format("<p>{}: {} in {}.</p>\n", markup_text(table.title), counted(table.num_rows(), "row"),
+      out += fmt::format("<p>{}: {} in {}.</p>\n", html_text(table.title), counted(table.num_rows(), "row"),
                          link);
       continue;
     }
     out += fmt::format("<details><summary>{}</summary>\n{}<p>Full precision: {}.</p></details>\n",
-                       markup_text(table.title), html_table(table), link);
+                       html_text(table.title), html_table(table), link);
   }
   return out;
 }

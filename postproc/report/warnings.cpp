@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/files/markup.hpp"
+#include "postproc/report/html.hpp"
 
 namespace cupola {
 namespace {
@@ -47,13 +47,13 @@ std::string warnings_html(const std::vector<std::string>& warnings) {
   for (const Alike& some : alike(warnings)) {
     if (some.warnings.size() <= kMostAlike) {
       for (const std::string& warning : some.warnings)
-        out += "<p class=\"warning\"><strong>Warning:</strong> " + markup_text(warning) + "</p>\n";
+        out += "<p class=\"warning\"><strong>Warning:</strong> " + html_text(warning) + "</p>\n";
       continue;
     }
     out += fmt::format(
         "<details class=\"warning\"><summary><strong>{} warnings</strong> like this: {}</summary>\n<ul>\n",
-        some.warnings.size(), markup_text(some.warnings.front()));
-    for (const std::string& warning : some.warnings) out += "<li>" + markup_text(warning) + "</li>\n";
+        some.warnings.size(), html_text(some.warnings.front()));
+    for (const std::string& warning : some.warnings) out += "<li>" + html_text(warning) + "</li>\n";
     out += "</ul></details>\n";
   }
   return out;

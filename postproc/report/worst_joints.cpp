@@ -27,7 +27,7 @@ std::string joint_link(const Evaluation& e, size_t index) {
       at_rest(e) ? fmt::format("joint=\"{}\"", index) : fmt::format("block=\"{}\"", joint.block_b);
   return fmt::format("<a href=\"#view\" data-{}>The {} joint between blocks {} and {}</a>", target,
                      joint.kind == JointKind::other ? "" : to_string(joint.kind),
-                     markup_text(named_block(e, joint.block_a)), markup_text(named_block(e, joint.block_b)));
+                     html_text(named_block(e, joint.block_a)), html_text(named_block(e, joint.block_b)));
 }
 
 std::string list_html(const char* heading, const std::string& items) {
@@ -42,13 +42,13 @@ std::string at_rest_html(const Evaluation& e) {
     out += fmt::format("<li>{} {}: it uses {:.3g} % of its friction under {}.</li>\n",
                        joint_link(e, *worst.sliding),
                        j.friction_use > kSlides ? "is at its friction limit" : "is the nearest to sliding",
-                       100.0 * j.friction_use, markup_text(normal_force_text(j.normal_force)));
+                       100.0 * j.friction_use, html_text(normal_force_text(j.normal_force)));
   }
   if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
     const bool on_edge = j.edge_distance < 1e-3 * std::sqrt(j.patch.area);
     out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
-                       joint_link(e, *worst.edge), markup_text(force_text(j.wrench.force.norm())),
+                       joint_link(e, *worst.edge), html_text(force_text(j.wrench.force.norm())),
                        on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
                        j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
   }

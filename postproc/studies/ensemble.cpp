@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/files/markup.hpp"
 #include "postproc/report/first_screen.hpp"
+#include "postproc/report/html.hpp"
 #include "postproc/studies/ensemble_figures.hpp"
 #include "postproc/studies/ensemble_results.hpp"
 #include "postproc/studies/sweep.hpp"
@@ -78,7 +78,7 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
     if (const Figure figure = distribution_figure(all); !figure.commands.empty()) page->add_figures({figure});
   if (!differences.rows.empty()) page->add_table(differences);
   for (const EnsembleResults& one : all) {
-    page->add("<h2>" + markup_text(one.name) + "</h2>\n");
+    page->add("<h2>" + html_text(one.name) + "</h2>\n");
     if (!one.runs->design && one.members.rows.size() <= kMostShown)
       page->add_table(one.members, in_readable_units(one.members));
     else
@@ -89,7 +89,7 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
       if (!figure.commands.empty()) page->add_figures({figure});
     for (const Table& table : {statistics_table(one), inputs_table(one), ends_table(one)}) {
       if (table.rows.empty()) continue;
-      page->add("<h3>" + markup_text(table.title) + "</h3>\n");
+      page->add("<h3>" + html_text(table.title) + "</h3>\n");
       page->add_table(table);
       if (table.name == one.name + "_statistics") text += aligned_text(table);
       if (table.name == one.name + "_ends")

@@ -179,7 +179,7 @@ std::string add_answers(const StudyAnswers& answers, const std::vector<NotComput
   for (NotComputed& one : missing_answers(answers, runs_folder, runs)) missing.push_back(std::move(one));
   if (!missing.empty()) page->add("<h2>Not computed</h2>\n<ul>\n");
   for (const NotComputed& one : missing) {
-    page->add(fmt::format("<li><strong>{}</strong>: {}</li>\n", markup_text(one.what), markup_text(one.why)));
+    page->add(fmt::format("<li><strong>{}</strong>: {}</li>\n", html_text(one.what), html_text(one.why)));
     text += fmt::format("not computed: {}: {}\n", one.what, one.why);
   }
   if (!missing.empty()) page->add("</ul>\n");

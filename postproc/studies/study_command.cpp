@@ -48,7 +48,7 @@ std::vector<MeasuredTable> add_tables(const Study& study, RunCache& runs, StudyP
     }
     tables.push_back({table, table.columns.empty() ? printed_table(table, page->folder() + "/script.csv")
                                                    : measured_table(table, runs)});
-    page->add("<h2>" + markup_text(table.name) + "</h2>\n");
+    page->add("<h2>" + html_text(table.name) + "</h2>\n");
     page->add_table(tables.back().table);
     *text += aligned_text(tables.back().table) + "\n";
   }
@@ -65,7 +65,7 @@ void add_comparisons(const Study& study, const StudyRequest& request, const RunC
     compare(folders, folder.string(), request.quiet);
     const std::string link = (fs::path(comparison.name) / "comparison.html").string();
     page->add(fmt::format("<p><a href=\"{0}\">{0}</a>: {1}</p>\n", link,
-                          markup_text(fmt::format("{}", fmt::join(comparison.runs, ", ")))));
+                          html_text(fmt::format("{}", fmt::join(comparison.runs, ", ")))));
   }
 }
 
@@ -139,9 +139,8 @@ ExitCode measure(const Study& study, const StudyRequest& request) {
   StudyPage page(study.title.empty() ? study.name : study.title, request.output_folder);
   std::string text;
   if (study.answers.verdict.empty() && !missing.empty())
-    page.add(
-        fmt::format("<p class=\"warning\"><strong>Not run:</strong> {}.</p>\n",
-                    markup_text(first_names(missing, ", ") + first_reason(missing, request.runs_folder))));
+    page.add(fmt::format("<p class=\"warning\"><strong>Not run:</strong> {}.</p>\n",
+                         html_text(first_names(missing, ", ") + first_reason(missing, request.runs_folder))));
   text += add_answers(study.answers, study.left_out, request.runs_folder, runs, &page);
   if (!study.sweep.empty()) text += add_sweep(study.sweep, study.runs, request.runs_folder, &page);
   text += add_ensembles(study.ensembles, request.runs_folder, &page);

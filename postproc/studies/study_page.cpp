@@ -28,24 +28,24 @@ Table without_empty_columns(const Table& table) {
 StudyPage::StudyPage(std::string title, std::string folder)
     : title_(std::move(title)), folder_(std::move(folder)) {
   make_folder(folder_);
-  body_ = "<h1>" + markup_text(title_) + "</h1>\n";
+  body_ = "<h1>" + html_text(title_) + "</h1>\n";
 }
 
 void StudyPage::add_paragraph(const std::string& text) {
-  body_ += "<p>" + markup_text(text) + "</p>\n";
+  body_ += "<p>" + html_text(text) + "</p>\n";
 }
 
 void StudyPage::add_figures(const std::vector<Figure>& figures) {
   const std::string figure_folder = folder_ + "/figures";
   for (const std::string& problem : draw_figures(figure_folder, figures)) {
     fmt::print(stderr, "cupola-post: warning: {}\n", problem);
-    body_ += "<p class=\"warning\">" + markup_text(problem) + "</p>\n";
+    body_ += "<p class=\"warning\">" + html_text(problem) + "</p>\n";
   }
   for (const Figure& figure : figures)
     if (const std::string picture = html_picture(picture_file(figure_folder, figure), figure.title);
         !picture.empty())
       body_ += fmt::format("<figure>\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n",
-                           picture, markup_text(figure.title), markup_text(figure.caption));
+                           picture, html_text(figure.title), html_text(figure.caption));
 }
 
 void StudyPage::add_report_links(const std::vector<StudyRun>& runs, const std::string& runs_folder) {

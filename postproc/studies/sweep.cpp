@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/files/markup.hpp"
 #include "assembly/files/number_text.hpp"
 #include "assembly/model/ending.hpp"
 #include "postproc/report/first_screen.hpp"
+#include "postproc/report/html.hpp"
 #include "postproc/studies/sweep_figure.hpp"
 
 namespace cupola {
@@ -213,7 +213,7 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
   const std::string governs = governing_member(keys, table, more_is_safer(members, runs_folder));
   page->add("<div class=\"first\">\n" + banner(sweep, table, governs));
   if (const std::string certain = certain_of_sweep(sweep, table); !certain.empty())
-    page->add("<p class=\"certain\">" + markup_text(certain) + "</p>\n");
+    page->add("<p class=\"certain\">" + html_text(certain) + "</p>\n");
   page->add("</div>\n");
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});
   page->add_table(table, in_readable_units(table));

@@ -8,27 +8,8 @@
 #include "postproc/report/html.hpp"
 
 namespace cupola::verification {
-namespace {
-
-/// Escaped text in which words between backticks are set as code.
-std::string html_text(const std::string& text) {
-  std::string out;
-  bool code = false;
-  for (const char c : markup_text(text)) {
-    if (c != '`') {
-      out += c;
-      continue;
-    }
-    out += code ? "</code>" : "<code>";
-    code = !code;
-  }
-  return out;
-}
-
-}  // namespace
-
 void Document::heading(int level, const std::string& text) {
-  html_ += fmt::format("<h{0}>{1}</h{0}>\n", level, markup_text(text));
+  html_ += fmt::format("<h{0}>{1}</h{0}>\n", level, html_text(text));
   markdown_ += fmt::format("{}{} {}\n\n", markdown_.empty() ? "" : "\n", std::string(level, '#'), text);
 }
 

@@ -8,6 +8,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "postproc/figures/gnuplot.hpp"
 #include "postproc/report/html.hpp"
+#include "postproc/report/warnings.hpp"
 #include "postproc/tables/csv_file.hpp"
 #include "tests/postproc/models.hpp"
 
@@ -62,6 +63,14 @@ TEST(Html, TextFromUsersIsEscaped) {
   EXPECT_EQ(table.find("<b>&"), std::string::npos);
   EXPECT_NE(table.find("&lt;b&gt;&amp;"), std::string::npos);
   EXPECT_NE(table.find("&lt;count&gt;"), std::string::npos);
+}
+
+TEST(Html, KeysBetweenBackticksAreCode) {
+  EXPECT_EQ(html_text("`a: <b>` and `c`"), "<code>a: &lt;b&gt;</code> and <code>c</code>");
+  EXPECT_EQ(html_text("one ` alone"), "one ` alone");
+  Table table{"t", "title", {{"sentence", "", ""}}, {{std::string("asked for by `key: value`")}}};
+  EXPECT_EQ(html_table(table).find('`'), std::string::npos);
+  EXPECT_EQ(warnings_html({"try `key: value`"}).find('`'), std::string::npos);
 }
 
 // A quote would end a gnuplot string and a line end would end a comment; either could start a command.
