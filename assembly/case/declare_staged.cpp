@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <set>
 
 #include "assembly/case/declare.hpp"
 
@@ -59,11 +58,6 @@ void declare_curing_rules(Section& s, const StagedConstruction& staged) {
   s.rule(!staged.days_per_course || !staged.curing.empty(), "days_per_course", "requires curing");
 }
 
-bool all_differ(const std::vector<BlockRef>& blocks) {
-  std::set<std::pair<std::string, int>> found;
-  return std::ranges::all_of(blocks, [&](const BlockRef& b) { return found.emplace(b.name, b).second; });
-}
-
 }  // namespace
 
 void declare_staged(Section& s, StagedConstruction& staged) {
@@ -109,7 +103,6 @@ void declare_staged(Section& s, StagedConstruction& staged) {
   declare_curing_rules(s, staged);
   s.rule(staged.order != Order::given || !staged.sequence.empty(), "order", "given requires a sequence");
   s.rule(staged.order == Order::given || staged.sequence.empty(), "sequence", "requires order: given");
-  s.rule(all_differ(staged.sequence), "sequence", "names a block twice");
   s.rule(staged.unit == Unit::block || staged.order == Order::counterclockwise, "order",
          "requires unit: block");
   s.rule(staged.unit == Unit::block || staged.teams == 1, "teams", "requires unit: block");

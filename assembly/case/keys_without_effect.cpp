@@ -1,6 +1,7 @@
 #include "assembly/case/keys_without_effect.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -52,11 +53,16 @@ void check_joints(const Joints& joints, const Assembly& assembly, const Refusal&
 
 void check_sequence(const std::vector<BlockRef>& sequence, const Assembly& assembly, const Refusal& refuse) {
   const char* key = "analysis.staged.sequence";
+  std::set<int> laid;
   for (BlockRef block : sequence) {
     resolve_block_name(assembly, key, &block);
-    refuse.unless(
-        !assembly.blocks[static_cast<size_t>(block)].fixed,
-        fmt::format("{}: block {} is a support, which is not laid", key, block_label(assembly, block)));
+    const std::string label = block_label(assembly, block);
+    refuse.unless(!assembly.blocks[static_cast<size_t>(block)].fixed,
+                  fmt::format("{}: block {} is a support, which is not laid", key, label));
+    // A case may give one block by its number and again by its name.
+    refuse.unless(laid.insert(block).second,
+                  fmt::format("{}: names block {} twice, by its name or its number {}; remove one", key,
+                              label, block.number));
   }
 }
 
