@@ -7,29 +7,60 @@
 
 #include "assembly/base/disjoint_sets.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
+#include "postproc/mechanics/layer_facets.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
+#include "postproc/mechanics/skin_facet.hpp"
 
 namespace cupola {
 
 namespace {
 
+/// The facets of a block on the bed behind its last course. Behind the last course of a stack lies the first
+/// bed of another, so that the shell has no bed for its end.
+std::vector<BedFacet> end_facets(const Assembly& assembly, int block, const Shell& shell) {
+  constexpr double kSideways = 0.1;  // as of the beds of the shell
+  Shell end;
+  end.beds.resize(1);
+  LayerFacets layers(assembly);
+  const int last = assembly.blocks[block].ring + assembly.blocks[block].num_rings - 1;
+  auto part = std::ranges::lower_bound(assembly.parts, block, {}, &Part::block);
+  for (; part != assembly.parts.end() && part->block == block; ++part)
+    for (int f = part->face_start; part->ring == last && f < part->face_start + part->num_faces; ++f) {
+      const FaceKind kind = assembly.face_kinds[f];
+      const Vec3 normal = polygon_plane(face_points(assembly, f)).normal;
+      if (kind != FaceKind::bed && kind != FaceKind::top) continue;
+      if (normal.dot(shell.direction(last)) <= kSideways) continue;
+      if (assembly.vertex_layers.empty())
+        add_skin_facet(assembly, *part, f, end.beds.data());
+      else
+        layers.add(*part, f, 0);
+    }
+  layers.add_to(&end);
+  return end.beds[0];
+}
+
 /// m: the area of a joint on a support over the thickness of the whole shell along the nearest facet on the
-/// beds of the block that it carries; NaN without one. Behind the last course of a stack lies the first bed
-/// of another.
-double length_of(const JointWrench& joint, const Assembly& assembly, const Block& carried,
-                 const Shell& shell) {
+/// beds of the block that it carries; NaN without one.
+double length_of(const JointWrench& joint, const Assembly& assembly, int carried, const Shell& shell) {
+  const Block& block = assembly.blocks[carried];
   const BedFacet* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const int bed : {carried.ring, carried.ring + carried.num_rings}) {
-    if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
-    if (assembly.sheet_of(bed) && assembly.stack_of(bed) != assembly.stack_of(carried.ring)) continue;
-    for (const BedFacet& f : shell.beds[bed]) {
+  const auto search = [&](const std::vector<BedFacet>& bed) {
+    for (const BedFacet& f : bed) {
       const Vec3 middle = 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
       const double distance = (middle - joint.centroid).squaredNorm();
       if (distance >= least) continue;
       least = distance;
       nearest = &f;
     }
+  };
+  std::vector<BedFacet> end;
+  for (const int bed : {block.ring, block.ring + block.num_rings}) {
+    if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
+    if (assembly.sheet_of(bed) && assembly.stack_of(bed) != assembly.stack_of(block.ring))
+      search(end = end_facets(assembly, carried, shell));
+    else
+      search(shell.beds[bed]);
   }
   if (!nearest) return std::numeric_limits<double>::quiet_NaN();
   const BedFacet& f = *nearest;
@@ -54,7 +85,7 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     reaction.ring = std::min(reaction.ring, ring);
     reaction.force += force;
     reaction.outward += force.dot(assembly.outward(ring, joint.centroid));
-    reaction.length += length_of(joint, assembly, assembly.blocks[carried], shell);
+    reaction.length += length_of(joint, assembly, carried, shell);
   }
   for (int i = 0; i < num_ties; ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];

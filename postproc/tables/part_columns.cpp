@@ -100,7 +100,9 @@ const Columns<Reaction>& reaction_columns() {
       {"force_{}_N", "N", "of the structure on the support", &S::force},
       {"outward_force_N", "N", "sum of its joints along the outward direction at the centroid of each",
        &S::outward},
-      {"length_m", "m", "of its joints along the course, area over thickness; empty: no thickness",
+      {"length_m", "m",
+       "of its joints along the course, area over thickness; empty: no thickness, as of the cut back of a "
+       "rib",
        &S::length},
       {"vertical_N_per_m", "N/m", "downwards on the support, per metre of support",
        [](const S& r) { return per_metre(-r.force.z(), r); }},

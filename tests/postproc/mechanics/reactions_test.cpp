@@ -52,6 +52,20 @@ TEST(Reactions, LengthIsThatOnTheBedsOfTheMemberItself) {
   EXPECT_NEAR(support_reactions(a, joints, shell).at(0).length, length, kRounding);
 }
 
+// The back of the last course of a rib is cut along the web, so that the shell has no facet on its bed: the
+// thickness is that at the end of the course, of a shell of one wythe and of several.
+TEST(Reactions, LengthIsThatAtTheEndOfACutCourse) {
+  for (Assembly a : {test::column(3), test::column_with_wythes()}) {
+    Shell shell = shell_of(a, Vec3::UnitZ());
+    const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
+    const JointWrenches joints = joint_wrenches(a, frame.contacts, shell);
+    const double length = support_reactions(a, joints, shell).at(0).length;
+    a.sheets = {{.name = "rib", .num_rings = 1}, {.name = "web", .first_ring = 1, .num_rings = 2}};
+    shell.beds[0].clear();
+    EXPECT_NEAR(support_reactions(a, joints, shell).at(0).length, length, kRounding);
+  }
+}
+
 // A tie of 1 kN from block 2 down to the support pulls it up, and another, from block 3 to an anchor without
 // joints, pulls that; a restraint, which follows the ties, pushes on the ground.
 TEST(Reactions, CountTheTiesOfTheSupports) {
