@@ -363,7 +363,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
 
   e.last = evaluate_frame(e, std::move(shown));
   const std::vector<bool> left_out = left_out_of(e, e.last);
-  e.rings = ring_sums(e.assembly, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
+  e.rings = ring_sums(e.assembly, e.shell, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,
                       e.last.frame.ties, left_out);
   warn_of_props(&e);
   e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);

@@ -1,7 +1,9 @@
 #include "postproc/mechanics/ring_sums.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -20,6 +22,17 @@ int ring_above_support(const Assembly& assembly, int block, const std::vector<bo
 }
 
 namespace {
+
+/// m, mean height of a bed by the area of its facets; NaN without any.
+double height_as_built(const std::vector<BedFacet>& bed) {
+  double sum = 0.0, whole = 0.0;
+  for (const BedFacet& f : bed) {
+    const double area = polygon_area(std::array{f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a});
+    sum += area * 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b).z();
+    whole += area;
+  }
+  return whole > 0.0 ? sum / whole : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// Turns the load of each ring into the load above each cut of its stack.
 void accumulate_downwards(const Assembly& assembly, std::vector<RingSum>* rings) {
@@ -89,7 +102,7 @@ std::optional<int> on_other_stack(const Assembly& assembly, const JointWrench& j
 void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
                     const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
-  std::vector<double> ring_area(rings->size(), 0.0);
+  std::vector<double> ring_area(rings->size(), 0.0), moment(ring_area);  // m2, and m3 of heights
   for (const JointWrench& joint : joints.wrenches) {
     if (const auto springer = on_other_stack(assembly, joint); springer && joint.carried < 0) {
       const int k = ring_above_support(assembly.blocks[*springer]);
@@ -101,7 +114,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     area[carried] += joint.area;
     const int k = ring_above_support(assembly.blocks[carried]);
     RingSum& ring = (*rings)[k];
-    ring.height += joint.area * joint.patch.centroid.z();
+    moment[k] += joint.area * joint.patch.centroid.z();
     ring_area[k] += joint.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
@@ -120,7 +133,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   }
   for (size_t k = 0; k < rings->size(); ++k) {
     RingSum& ring = (*rings)[k];
-    if (ring_area[k] > 0.0) ring.height /= ring_area[k];
+    if (ring_area[k] > 0.0) ring.height = moment[k] / ring_area[k];
     if (!resultants[k].empty()) ring.mean_resultant /= static_cast<double>(resultants[k].size());
     ring.cv_resultant = above(coefficient_of_variation(resultants[k]), joints.floor.share);
     ring.cv_pressure = above(coefficient_of_variation(pressures[k]), joints.floor.share);
@@ -140,7 +153,7 @@ double coefficient_of_variation(const std::vector<double>& values) {
   return std::sqrt(variance) / std::abs(mean);
 }
 
-std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
+std::vector<RingSum> ring_sums(const Assembly& assembly, const Shell& shell, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties,
                                const std::vector<bool>& left_out) {
@@ -151,12 +164,12 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& jo
       if (!block.fixed) num_rings = std::max(num_rings, block.ring + 1);
   std::vector<RingSum> rings(static_cast<size_t>(num_rings));
   if (rings.empty()) return rings;
-  for (int k = 0; k < num_rings; ++k) rings[k].ring = k;
+  for (int k = 0; k < num_rings; ++k) rings[k] = {.ring = k, .height = height_as_built(shell.beds[k])};
   add_loads(assembly, gravity, loads, left_out, &rings);
   add_joint_forces(assembly, joints, ties, left_out, &rings);
   add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
-    if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring};
+    if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring, .height = ring.height};
     const double load = ring.load_above.norm();
     if (load > 0.0) ring.relative_difference = (ring.joint_force + ring.load_above).norm() / load;
   }

@@ -4,6 +4,7 @@
 
 #include "assembly/model/applied_loads.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
+#include "postproc/mechanics/shell.hpp"
 
 namespace cupola {
 
@@ -17,7 +18,9 @@ int ring_above_support(const Assembly& assembly, int block, const std::vector<bo
 /// the weight of these blocks and the loads on them.
 struct RingSum {
   int ring = 0;
-  double height = 0.0;               ///< m, mean height of the ring's bed joints, weighted by area
+  /// m, mean height of the ring's bed joints, weighted by area; without any of its bed as built, NaN if the
+  /// shell has none.
+  double height = 0.0;
   int blocks = 0;                    ///< number of blocks whose first ring is k; 0: no cut, the sums are 0
   Vec3 joint_force = Vec3::Zero();   ///< N, of joints and ties on the blocks above the cut
   Vec3 load_above = Vec3::Zero();    ///< N, weight of these blocks and loads on them
@@ -33,7 +36,7 @@ struct RingSum {
 
 /// One cut per ring, from the base upwards; empty for blocks without rings. `left_out`: per block, true if it
 /// does not take part, as before it is laid; empty: all take part. Each stack of sheets has cuts of its own.
-std::vector<RingSum> ring_sums(const Assembly& assembly, const JointWrenches& joints,
+std::vector<RingSum> ring_sums(const Assembly& assembly, const Shell& shell, const JointWrenches& joints,
                                const std::vector<Wrench>& from_below, const Vec3& gravity,
                                const std::vector<PointForce>& loads, const TieTable& ties = {},
                                const std::vector<bool>& left_out = {});

@@ -52,7 +52,7 @@ Results results_of(const Case& scene, const std::vector<std::optional<double>>& 
   const std::vector<Wrench> from_below = wrenches_from_below(assembly, joints);
   Results results;
   results.weight = summary.weight_N;
-  results.rings = ring_sums(assembly, joints, from_below, scene.loads.gravity, {});
+  results.rings = ring_sums(assembly, shell, joints, from_below, scene.loads.gravity, {});
   const ThrustInput input{&assembly, &shell, &frame.contacts, &joints, from_below, scene.loads.gravity};
   for (const std::optional<double>& azimuth : azimuths)
     results.lines.push_back(thrust_line(input, "line", azimuth));

@@ -64,6 +64,7 @@ TEST(Evaluation, PartsThatFallLoadNothing) {
   EXPECT_NEAR(e.rings[0].load_above.z(), -kBlockWeight, 1e-9 * kBlockWeight);
   EXPECT_LT(e.rings[0].relative_difference, 1e-14);
   EXPECT_EQ(e.rings[1].blocks, 0);
+  EXPECT_NEAR(e.rings[1].height, 0.5, 1e-15) << "of its bed as built: no joint is left on it";
   EXPECT_TRUE(e.last.loads.empty());
 }
 
