@@ -39,14 +39,23 @@ RangeEnd end_in(const CsvFile& csv, size_t row, const std::string& end) {
   return out;
 }
 
-/// The name of a column: lower case, words joined by underscores, unit last.
+/// The name of a column: lower case, words joined by underscores, unit last. Numbers keep their signs and
+/// points, minus_0p5, so that each direction has a name of its own.
 std::string range_key(const std::string& quantity, const std::string& value, const std::string& unit) {
+  const std::string text = quantity + " " + value;
+  const auto is_in = [](int (*kind)(int), char c) { return kind(static_cast<unsigned char>(c)) != 0; };
   std::string key;
-  for (const char c : quantity + " " + value) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool after_word = i > 0 && is_in(std::isalnum, text[i - 1]),
+               in_number = i + 1 < text.size() && is_in(std::isdigit, text[i + 1]);
+    if (is_in(std::isalnum, c))
       key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else if (c == '.' && after_word && in_number)
+      key += 'p';
     else if (!key.empty() && key.back() != '_')
       key += '_';
+    if (c == '-' && !after_word && in_number) key += "minus_";
   }
   return unit.empty() ? key : key + "_" + unit;
 }

@@ -118,6 +118,22 @@ TEST(RangeTable, SweepHasColumnsForEveryQuantityOfItsMembers) {
   for (const size_t i : {0u, 2u}) EXPECT_EQ(to_display(table.rows[i][n - 1]), "") << "no ranges";
 }
 
+TEST(RangeTable, ColumnsOfOppositeDirectionsHaveNamesOfTheirOwn) {
+  std::vector<ForceRange> ranges;
+  for (const char* quantity :
+       {"reaction of block 0 along (1, 0, 0)", "reaction of block 0 along (-1, 0, 0)",
+        "shear of joint 3-4 along (0.5, 0, 1)", "shear of joint 3-4 along (0, 5, 0.1)"})
+    ranges.push_back({.quantity = quantity, .unit = "N"});
+  Table table;
+  table.rows.resize(1);
+  add_range_columns({ranges}, &table);
+  ASSERT_EQ(table.columns.size(), 12u);
+  EXPECT_EQ(table.columns[0].key, "reaction_of_block_0_along_1_0_0_min_N");
+  EXPECT_EQ(table.columns[3].key, "reaction_of_block_0_along_minus_1_0_0_min_N");
+  EXPECT_EQ(table.columns[6].key, "shear_of_joint_3_4_along_0p5_0_1_min_N");
+  EXPECT_EQ(table.columns[9].key, "shear_of_joint_3_4_along_0_5_0p1_min_N");
+}
+
 TEST(RangeTable, ComparisonNamesTheNarrowestRange) {
   PostSummary a, b, c;
   for (PostSummary* s : {&a, &b, &c}) s->status = "stable";
