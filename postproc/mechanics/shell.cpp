@@ -44,14 +44,15 @@ std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, c
   return progress;
 }
 
-double median(std::vector<double> values) {
+/// The value in the middle, of an even number the upper one: a width that a block has, as no mean is.
+double middle_value(std::vector<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-/// Median width in azimuth of the standard blocks of the courses [first, end), of all where none is, rad.
+/// Middle width in azimuth of the standard blocks of the courses [first, end), of all where none is, rad.
 double standard_width(const Assembly& assembly, const Shell& shell, int first, int end) {
   const Sheet axis = assembly.axis_of(first);
   std::map<int, double> widths;  // rad, by block: range of azimuths on its own bed
@@ -65,7 +66,7 @@ double standard_width(const Assembly& assembly, const Shell& shell, int first, i
     all.push_back(width);
     if (assembly.blocks[block].kind != BlockKind::herringbone) standard.push_back(width);
   }
-  return median(standard.empty() ? std::move(all) : std::move(standard));
+  return middle_value(standard.empty() ? std::move(all) : std::move(standard));
 }
 
 /// Per free block of a shell with wythes, the mean vector from the inner to the outer edges of its bed

@@ -40,7 +40,7 @@ struct Shell {
   std::vector<std::vector<BlockBed>> blocks;  ///< (num_rings + 1), those on each bed, by their numbers
   std::vector<Vec3> progress;                 ///< (num_rings), unit direction from ring to ring
   Vec3 up = Vec3::UnitZ();                    ///< against gravity
-  /// (num_rings), rad, median width in azimuth of the standard blocks of the stack, of all where none is.
+  /// (num_rings), rad, middle width in azimuth of the standard blocks of the stack, of all where none is.
   std::vector<double> block_width_rad;
   int num_wythes = 1;              ///< numbers in use; some may have no blocks
   std::vector<int> innermost;      ///< (num_wythes), number of the innermost wythe of the same drum or shell

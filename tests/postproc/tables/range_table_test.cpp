@@ -123,7 +123,7 @@ TEST(RangeTable, ColumnsOfOppositeDirectionsHaveNamesOfTheirOwn) {
   for (const char* quantity :
        {"reaction of block 0 along (1, 0, 0)", "reaction of block 0 along (-1, 0, 0)",
         "shear of joint 3-4 along (0.5, 0, 1)", "shear of joint 3-4 along (0, 5, 0.1)"})
-    ranges.push_back({.quantity = quantity, .unit = "N"});
+    ranges.push_back({quantity, "N", {}, {}, {}});
   Table table;
   table.rows.resize(1);
   add_range_columns({ranges}, &table);
