@@ -105,9 +105,10 @@ void add_shared_force(const BlockForce& load, const Assembly& assembly, const st
 
 /// On the upper faces of the masonry, wherever its extrados or the top of a wall lies below the rectangle.
 std::vector<SpreadShare> shares_of(const BlockForce& load, const Assembly& assembly, const std::string& key) {
-  std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::extrados}, 0, kLastRing, "");
-  std::ranges::move(open_tops(assembly, 0, kLastRing, "", false), std::back_inserter(faces));
   const Vec3& point = load.point.value();
+  std::vector<LoadedFace> faces = open_parts(
+      assembly, faces_of_kind(assembly, std::array{FaceKind::extrados}, 0, kLastRing, ""), point.z());
+  std::ranges::move(open_tops(assembly, 0, kLastRing, "", false, point.z()), std::back_inserter(faces));
   std::vector<SpreadShare> shares = spread_shares(*load.spread, point, faces);
   if (shares.empty())
     throw InputError(
@@ -163,14 +164,16 @@ std::string kinds_of(const Assembly& assembly, const std::string& member) {
   return kinds.empty() ? "none that a load can act on" : kinds;
 }
 
-/// A fill on the extrados lies on the tops beside it, too.
+/// A fill on the extrados lies on the tops beside it, too, and on what no masonry below its level covers.
 std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assembly, const std::string& key) {
   const bool on_tops = load.faces == FaceKind::top;
+  const double level = load.fill ? load.fill->level : kFar;
   std::vector<LoadedFace> faces;
   if (!on_tops)
     faces = faces_of_kind(assembly, std::array{load.faces}, load.from_ring, load.to_ring, load.member);
+  if (load.fill) faces = open_parts(assembly, faces, level);
   if (on_tops || (load.fill && load.faces == FaceKind::extrados))
-    std::ranges::move(open_tops(assembly, load.from_ring, load.to_ring, load.member, !on_tops),
+    std::ranges::move(open_tops(assembly, load.from_ring, load.to_ring, load.member, !on_tops, level),
                       std::back_inserter(faces));
   if (faces.empty())
     throw InputError(fmt::format("{}: no free block{}{} has faces of kind {}; {} has: {}", key,

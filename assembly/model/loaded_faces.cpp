@@ -70,11 +70,11 @@ bool looks_up(const LoadedFace& face) {
   return face.normal.z() > kUpright;
 }
 
-LoadedFace loaded_face(const Assembly& assembly, int block, int f) {
+LoadedFace loaded_face(const Assembly& assembly, int part, int f) {
   std::vector<Vec3> polygon = face_points(assembly, f);
   const Vec3 centroid = polygon_centroid(polygon), normal = polygon_plane(polygon).normal;
   const double area = polygon_area(polygon);
-  return {block, std::move(polygon), centroid, normal, area};
+  return {assembly.parts[part].block, part, std::move(polygon), centroid, normal, area};
 }
 
 std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset) {
@@ -101,13 +101,14 @@ bool is_of_member(const Assembly& assembly, const Block& block, const std::strin
 std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const FaceKind> kinds,
                                       int from_ring, int to_ring, const std::string& member) {
   std::vector<LoadedFace> faces;
-  for (const Part& part : assembly.parts) {
+  for (int p = 0; p < static_cast<int>(assembly.parts.size()); ++p) {
+    const Part& part = assembly.parts[p];
     const Block& block = assembly.blocks[part.block];
     if (part.ring < from_ring || part.ring > to_ring || block.fixed || !is_of_member(assembly, block, member))
       continue;
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       if (std::ranges::find(kinds, assembly.face_kinds[f]) == kinds.end()) continue;
-      faces.push_back(loaded_face(assembly, part.block, f));
+      faces.push_back(loaded_face(assembly, p, f));
     }
   }
   return faces;

@@ -11,7 +11,7 @@ namespace cupola {
 
 /// A face of a free block on which a load acts.
 struct LoadedFace {
-  int block = 0;
+  int block = 0, part = 0;
   std::vector<Vec3> polygon;     ///< m
   Vec3 centroid = Vec3::Zero();  ///< m
   Vec3 normal = Vec3::UnitZ();   ///< outward
@@ -20,7 +20,7 @@ struct LoadedFace {
 
 constexpr double kUpright = 1e-9;  ///< cosine between a face and the vertical within rounding
 
-LoadedFace loaded_face(const Assembly& assembly, int block, int f);
+LoadedFace loaded_face(const Assembly& assembly, int part, int f);
 
 bool looks_up(const LoadedFace& face);
 

@@ -1,14 +1,15 @@
 #include "assembly/model/open_tops.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <set>
-#include <span>
 #include <utility>
 
 #include <Eigen/Geometry>
+
+#include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
 namespace {
@@ -37,12 +38,13 @@ std::vector<std::vector<Vec3>> outside_in_plan(const std::vector<std::vector<Vec
   return kept;
 }
 
-/// A face that looks down, and the member of its block.
+/// A part of the masonry's underside, up to the level to which it covers what lies below.
 struct Soffit {
   std::vector<Vec3> polygon;
   Plane plane;
   Eigen::AlignedBox2d plan;
-  int member = 0;
+  int part = 0;
+  double start = 0.0;  ///< m, along the longer side of the plan of all
 };
 
 Eigen::AlignedBox2d plan_of(const std::vector<Vec3>& polygon) {
@@ -51,83 +53,109 @@ Eigen::AlignedBox2d plan_of(const std::vector<Vec3>& polygon) {
   return plan;
 }
 
-std::vector<Soffit> soffits(const Assembly& assembly) {
-  std::vector<Soffit> found;
-  for (const Part& part : assembly.parts)
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      if (assembly.face_kinds[f] == FaceKind::internal) continue;
-      std::vector<Vec3> polygon = face_points(assembly, f);
-      const Plane plane = polygon_plane(polygon);
-      if (plane.normal.z() >= -kUpright) continue;
-      const Eigen::AlignedBox2d plan = plan_of(polygon);
-      found.push_back({std::move(polygon), plane, plan, assembly.blocks[part.block].member});
+int member_of(const Assembly& assembly, int part) {
+  return assembly.blocks[assembly.parts[part].block].member;
+}
+
+/// The soffits of all masonry.
+class Cover {
+ public:
+  Cover(const Assembly& assembly, double level)
+      : assembly_(assembly), margin_(joint_rule(smallest_block_size(assembly), 0.0).margin) {
+    const double highest = level - 1e-3 * margin_;  // what lies at the level covers nothing, but for rounding
+    Eigen::AlignedBox2d plan;
+    for (int p = 0; p < static_cast<int>(assembly.parts.size()); ++p) {
+      const Part& part = assembly.parts[p];
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+        const LoadedFace face = loaded_face(assembly, p, f);
+        if (assembly.face_kinds[f] == FaceKind::internal || face.normal.z() >= -kUpright) continue;
+        std::vector<Vec3> polygon = below_plane(face.polygon, Vec3::UnitZ(), highest);
+        if (polygon.size() < 3) continue;
+        const Eigen::AlignedBox2d of_soffit = plan_of(polygon);
+        plan.extend(of_soffit);
+        soffits_.push_back(
+            {std::move(polygon), {face.normal, face.normal.dot(face.centroid)}, of_soffit, p, 0.0});
+      }
     }
-  return found;
-}
-
-/// A face that looks up, with the pieces of it that are open to the sky.
-struct Top {
-  LoadedFace face;
-  std::vector<std::vector<Vec3>> open;
-  int member = 0;
-};
-
-/// Takes what the soffits cover; notes the members that stand on that of the top.
-void cover(std::span<const Soffit> soffits, Top* top, std::set<std::pair<int, int>>* stands_on) {
-  constexpr double kNothing = 1e-9;  // of the area of a face, and of its size: rounding
-  const double size = std::sqrt(top->face.area);
-  const Eigen::AlignedBox2d plan = plan_of(top->face.polygon);
-  for (const Soffit& soffit : soffits) {
-    const double above = top->face.normal.dot(polygon_centroid(soffit.polygon) - top->face.centroid);
-    if (above < -kNothing * size || plan.intersection(soffit.plan).isEmpty()) continue;
-    top->open = outside_in_plan(top->open, soffit.polygon, kNothing * top->face.area);
-    const bool touches = above <= kNothing * size && soffit.plane.normal.dot(top->face.normal) < kNothing - 1;
-    if (touches && soffit.member != top->member) stands_on->emplace(soffit.member, top->member);
+    if (soffits_.empty()) return;
+    axis_ = plan.sizes().x() < plan.sizes().y() ? 1 : 0;
+    for (Soffit& soffit : soffits_) {
+      widest_ = std::max(widest_, soffit.plan.sizes()[axis_]);
+      soffit.start = soffit.plan.min()[axis_];
+    }
+    std::ranges::sort(soffits_, {}, &Soffit::start);
   }
-}
+
+  /// Adds what no soffit covers of a face that looks up; notes the members that stand on that of the face.
+  void add_open(const LoadedFace& face, std::vector<LoadedFace>* faces,
+                std::set<std::pair<int, int>>* stands_on) const {
+    const Eigen::AlignedBox2d plan = plan_of(face.polygon);
+    const double height = face.normal.dot(face.centroid);
+    std::vector<std::vector<Vec3>> open{face.polygon};
+    auto s = std::ranges::lower_bound(soffits_, plan.min()[axis_] - widest_, {}, &Soffit::start);
+    for (; s != soffits_.end() && s->start <= plan.max()[axis_]; ++s) {
+      if (s->part == face.part || plan.intersection(s->plan).isEmpty()) continue;
+      const std::vector<Vec3> above =
+          below_plane(s->polygon, -face.normal, margin_ * face.normal.z() - height);
+      if (above.size() < 3) continue;
+      open = outside_in_plan(open, above, kNothing * face.area);
+      const bool touches = s->plane.normal.dot(face.normal) < kNothing - 1.0 &&
+                           std::abs(s->plane.offset + height) <= kNothing * std::sqrt(face.area);
+      if (touches) stands_on->emplace(member_of(assembly_, s->part), member_of(assembly_, face.part));
+    }
+    for (std::vector<Vec3>& polygon : open) {
+      const Vec3 centroid = polygon_centroid(polygon);
+      const double area = polygon_area(polygon);
+      faces->push_back({face.block, face.part, std::move(polygon), centroid, face.normal, area});
+    }
+  }
+
+ private:
+  static constexpr double kNothing = 1e-9;  // of the area of a face, and of its size: rounding
+
+  const Assembly& assembly_;
+  std::vector<Soffit> soffits_;
+  double margin_ = 0.0;  // m, of height, by which a soffit may lie below what it covers: blocks overlap
+  double widest_ = 0.0;  // m, of the soffits along the axis
+  int axis_ = 0;
+};
 
 }  // namespace
 
+std::vector<LoadedFace> open_parts(const Assembly& assembly, const std::vector<LoadedFace>& faces,
+                                   double level) {
+  const Cover cover(assembly, level);
+  std::set<std::pair<int, int>> unused;
+  std::vector<LoadedFace> open;
+  for (const LoadedFace& face : faces) {
+    if (looks_up(face))
+      cover.add_open(face, &open, &unused);
+    else
+      open.push_back(face);
+  }
+  return open;
+}
+
 std::vector<LoadedFace> open_tops(const Assembly& assembly, int from_ring, int to_ring,
-                                  const std::string& member, bool of_bearers) {
-  std::map<int, int> last_ring;  // of members
-  for (const Part& part : assembly.parts) {
-    int& last = last_ring[assembly.blocks[part.block].member];
-    last = std::max(last, part.ring);
-  }
-  const std::vector<Soffit> soffits_of_all = soffits(assembly);
+                                  const std::string& member, bool of_bearers, double level) {
+  constexpr std::array kTops{FaceKind::top, FaceKind::free, FaceKind::bed, FaceKind::head, FaceKind::wythe};
+  const Cover cover(assembly, level);
   std::set<std::pair<int, int>> stands_on;
-  std::vector<Top> tops;
-  for (const Part& part : assembly.parts) {
-    const Block& block = assembly.blocks[part.block];
-    if (part.ring < from_ring || part.ring > to_ring || block.fixed) continue;
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      const FaceKind kind = assembly.face_kinds[f];
-      const bool is_last_bed = kind == FaceKind::bed && part.ring == last_ring[block.member];
-      if (kind != FaceKind::top && kind != FaceKind::free && !is_last_bed) continue;
-      Top top{loaded_face(assembly, part.block, f), {}, block.member};
-      if (!looks_up(top.face)) continue;
-      top.open = {top.face.polygon};
-      cover(soffits_of_all, &top, &stands_on);
-      tops.push_back(std::move(top));
-    }
-  }
+  std::vector<LoadedFace> tops;
+  for (const LoadedFace& face : faces_of_kind(assembly, kTops, from_ring, to_ring, ""))
+    if (looks_up(face)) cover.add_open(face, &tops, &stands_on);
   const auto is_named = [&](int index) {
     return !assembly.members.empty() && assembly.members[index] == member;
   };
-  const auto counts = [&](int of_top) {
-    if (member.empty() || !of_bearers) return member.empty() || is_named(of_top);
-    return std::ranges::any_of(
-        stands_on, [&](const auto& pair) { return pair.second == of_top && is_named(pair.first); });
-  };
-  std::vector<LoadedFace> faces;
-  for (const Top& top : tops) {
-    if (!counts(top.member)) continue;
-    for (const std::vector<Vec3>& polygon : top.open)
-      faces.push_back(
-          {top.face.block, polygon, polygon_centroid(polygon), top.face.normal, polygon_area(polygon)});
-  }
-  return faces;
+  if (member.empty()) return tops;
+  std::erase_if(tops, [&](const LoadedFace& top) {
+    const int of_top = member_of(assembly, top.part);
+    if (!of_bearers) return !is_named(of_top);
+    return std::ranges::none_of(stands_on, [&](const auto& pair) {
+      return pair.first != of_top && pair.second == of_top && is_named(pair.first);
+    });
+  });
+  return tops;
 }
 
 }  // namespace cupola

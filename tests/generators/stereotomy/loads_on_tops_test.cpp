@@ -1,6 +1,7 @@
 // Fill and spread forces above a barrel that stands on walls wider than itself.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -11,6 +12,7 @@
 #include "assembly/case/bundled.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/model/applied_loads.hpp"
+#include "assembly/model/loaded_faces.hpp"
 #include "generators/generate.hpp"
 #include "tests/fresh_folder.hpp"
 
@@ -19,8 +21,8 @@ namespace {
 
 constexpr double kLength = 3.0, kOuter = 3.2;  // m: of the barrel, and from its axis to the back of the walls
 
-/// A barrel of 4 m on two walls, whose inner faces are `span` apart.
-Case barrel_on_walls(double span, const std::string& loads) {
+/// A barrel of 4 m on two walls, whose inner faces are `span` apart, and perhaps another member.
+Case barrel_on_walls(double span, const std::string& loads, const std::string& other = "") {
   const std::string file = test::fresh_folder("loads_on_tops") + "/case.yaml";
   std::ofstream(file) << fmt::format(R"(
 geometry:
@@ -40,10 +42,11 @@ geometry:
         beds: given
         bed_angles_deg: [0, 90]
       bond: {{type: running, rings: 9, blocks_per_ring: 3, slices_per_block: 2}}
+{4}
 material: {{unit_weight: 18000}}
 loads: {3}
 )",
-                                     span, kOuter - 0.5 * span, kLength, loads);
+                                     span, kOuter - 0.5 * span, kLength, loads, other);
   return read_case(file);
 }
 
@@ -123,6 +126,79 @@ TEST(LoadsOnTops, FillLiesOnWhatACutLaidOpen) {
               0.5e4 * (3 * 1.0 + 1.8), 1e-7);
   EXPECT_NEAR(fill_on_wall("{type: prism, axis: y, u: [1, 2, 2, 1], v: [0.5, 0.5, 1.2, 1.2]}"), 4 * 0.5e4,
               1e-7);
+}
+
+// As above, for cuts that end on a bed, 4/3 m high: of the whole wall, and of a part, whose edge parts stones.
+TEST(LoadsOnTops, FillLiesOnBedsThatACutLaidOpen) {
+  EXPECT_NEAR(fill_on_wall("{type: plane, point: [0, 0, 1.3333333333333333], normal: [0, 0, 1]}"),
+              4 * 0.5e4 * (3.0 - 4.0 / 3.0), 1e-7);
+  EXPECT_NEAR(fill_on_wall("{type: prism, axis: y, u: [0.9, 2.1, 2.1, 0.9], "
+                           "v: [1.3333333333333333, 1.3333333333333333, 3, 3]}"),
+              0.5e4 * (2.8 + 1.2 * (3.0 - 4.0 / 3.0)), 1e-7);
+}
+
+// Beds at which the stones of a wall part or overlap stay covered, but for the last, on which soil
+// lies through the head joints.
+TEST(LoadsOnTops, FillLiesOnNoBedInsideAWall) {
+  const std::string file = test::fresh_folder("loads_on_tops") + "/imperfect.yaml";
+  std::ofstream(file) << R"(
+geometry:
+  surface: {type: wall, length: 4, height: 2, thickness: 0.5}
+  bond: {type: running, rings: 6, blocks_per_ring: 8, slices_per_block: 2}
+imperfections: {gap: 2e-3, seed: 3}
+contact: {margin: 5e-3}
+loads: {faces: [{fill: {level: 3, unit_weight: 10000}}]}
+)";
+  const Case scene = read_case(file);
+  Assembly assembly = generate(scene);
+  const auto on_beds = [&] {
+    double sum = 0.0;
+    for (const PointForce& force : applied_loads(scene.loads, assembly))
+      if (force.point.z() < 1.6) sum -= force.force.z();
+    return sum;
+  };
+  EXPECT_EQ(on_beds(), 0.0);
+  for (Vec3& p : assembly.vertices) p.z() *= 1.0 + 1e-3;
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) assembly.vertices[v].z() -= 1e-4 * part.ring;
+  EXPECT_EQ(on_beds(), 0.0);
+}
+
+// What lies above the level of a fill keeps none of it off: a barrel over the whole, as of an upper storey.
+TEST(LoadsOnTops, AnUpperStoreyKeepsNoFillOff) {
+  const char* fill = "{faces: [{fill: {level: 1.25, unit_weight: 16000}}]}";
+  const char* upper = R"(
+    - name: upper
+      at: {origin: [0, 0, 1.3]}
+      surface:
+        {type: vault, plan: {type: line, length: 3}, profile: {type: semicircle, span: 12}, thickness: 0.25}
+      bond: {type: running, rings: 9, blocks_per_ring: 3, slices_per_block: 2}
+)";
+  const Case alone = barrel_on_walls(4.0, fill), below = barrel_on_walls(4.0, fill, upper);
+  const Sums a = sums_of(alone, generate(alone)), b = sums_of(below, generate(below));
+  EXPECT_GT(a.walls, 0.0);
+  EXPECT_NEAR(b.walls, a.walls, 1e-9 * a.walls) << "rounding";
+  EXPECT_NEAR(b.barrel, a.barrel, 1e-9 * a.barrel) << "rounding";
+}
+
+// No soil lies inside the walls of 0.4 m and their supports, which stand on the whole length of a barrel.
+TEST(LoadsOnTops, FillLiesBetweenSpandrelWalls) {
+  Case scene = read_case(bundled_folder() + "/bridge_spandrels.yaml");
+  FaceLoad soil;
+  soil.fill.emplace();
+  soil.fill->level = 3.6;
+  soil.fill->unit_weight = 18e3;
+  soil.member = "barrel";
+  scene.loads.faces = {soil};
+  const Assembly assembly = generate(scene);
+  double sum = 0.0, expected = 0.0;
+  for (const PointForce& force : applied_loads(scene.loads, assembly)) sum -= force.force.z();
+  for (LoadedFace face : faces_of_kind(assembly, std::array{FaceKind::extrados}, 0, kLastRing, "barrel")) {
+    face.polygon = below_plane(below_plane(face.polygon, -Vec3::UnitY(), -0.4), Vec3::UnitY(), 3.6);
+    expected -= fill_force(*soil.fill, face, scene.loads.gravity).force.z();
+  }
+  EXPECT_NEAR(sum, expected, 1e-9 * expected) << "rounding";
 }
 
 // A traction on faces of kind top acts on what is free of the tops of a member.
