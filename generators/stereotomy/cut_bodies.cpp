@@ -28,6 +28,7 @@ struct Cell {
   int block = 0;
   int side = 0;  ///< of the joints that part its block: pieces on different sides are different blocks
   bool is_changed = false;
+  bool is_rest = false;  ///< of a block too small to stay one
 };
 
 /// The work on one member.
@@ -38,7 +39,7 @@ class Carving {
     Eigen::AlignedBox3d box;
     for (size_t p = start.part; p < assembly->parts.size(); ++p) {
       const Part& part = assembly->parts[p];
-      cells_.push_back({part, piece_of(*assembly, part), part.block, 0, false});
+      cells_.push_back({part, piece_of(*assembly, part), part.block, 0, false, false});
       for (const ConvexPiece::Face& face : cells_.back().piece.faces)
         for (const int v : face.vertices) box.extend(assembly->vertices[v]);
     }
@@ -83,7 +84,7 @@ class Carving {
       }
       sides[cell.block] = {true, true};
       for (const auto& [piece, side] : {std::pair(outside.front(), 0), {inside, 1}}) {
-        parted.push_back({cell.part, piece, cell.block, 2 * cell.side + side, true});
+        parted.push_back({cell.part, piece, cell.block, 2 * cell.side + side, true, false});
         for (ConvexPiece::Face& face : parted.back().piece.faces) {
           if (face.plane >= 0) face.kind = FaceKind::head;
           face.plane = -1;
@@ -112,7 +113,7 @@ class Carving {
       of_ring_[assembly_->blocks[cells_[i].block].ring].push_back(i);
     }
     for (const int block : touched_) separate(block);
-    for (const int block : touched_) join_if_small(block);
+    join_rests();
     drop_idle_supports();
     std::vector<Block> blocks(assembly_->blocks.begin(),
                               assembly_->blocks.begin() + static_cast<std::ptrdiff_t>(start_.block));
@@ -188,7 +189,8 @@ class Carving {
           if (face.kind == FaceKind::internal) face.kind = FaceKind::free;  // of a slice
           if (!assembly_->blocks[cell.block].fixed) faces->push_back(points_of(*assembly_, face));
         }
-        left.push_back({cell.part, std::move(piece), cell.block, cell.side, cell.is_changed || !whole});
+        left.push_back(
+            {cell.part, std::move(piece), cell.block, cell.side, cell.is_changed || !whole, false});
       }
       if (!whole) touched_.push_back(cell.block);
     }
@@ -265,24 +267,31 @@ class Carving {
     std::erase_if(cells_, [&](const Cell& cell) { return idle.contains(cell.block); });
   }
 
-  void join_if_small(int block) {
-    std::vector<int> blocks{block};
-    for (const int number : added_)
-      if (origin(number) == block) blocks.push_back(number);
-    for (const int number : blocks) join_small(number);
+  void join_rests() {
+    constexpr double kLeast = 0.1;  // of the block as laid
+    std::vector<int> rests;
+    for (const auto& [block, cells] : of_block_) {
+      const int laid = origin(block);
+      if (assembly_->blocks[laid].fixed || !std::ranges::binary_search(touched_, laid) ||
+          volume(block) >= kLeast * volumes_[laid - start_.block])
+        continue;
+      rests.push_back(block);
+      for (const size_t i : cells) cells_[i].is_rest = true;
+    }
+    for (const int rest : rests) join(rest);
   }
 
-  void join_small(int block) {
-    constexpr double kLeast = 0.1;  // of the block as laid
+  /// Joins a rest to the stone that it touches most widely, in its own course if it can. Rests join no rests:
+  /// those that a level cut leaves of a course would make one slab.
+  void join(int block) {
     const Block& laid = assembly_->blocks[origin(block)];
     const std::vector<size_t> own = cells_of(block);
-    if (laid.fixed || own.empty() || volume(block) >= kLeast * volumes_[origin(block) - start_.block]) return;
     std::optional<int> widest;
     double width = 0.0;
     for (const int ring : {laid.ring, laid.ring - 1, laid.ring + 1}) {
       for (const size_t k : of_ring_[ring]) {
         const Cell& other = cells_[k];
-        if (other.block == block || assembly_->blocks[origin(other.block)].fixed) continue;
+        if (other.is_rest || assembly_->blocks[origin(other.block)].fixed) continue;
         for (const size_t i : own)
           if (const double w = cells_[i].side == other.side
                                    ? shared_width(*assembly_, cells_[i].piece, other.piece, rounding_, gap_)
@@ -351,7 +360,7 @@ void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, do
       faces[i] = carving.take(taken, from_supports, key);
   }
   carving.write();
-  mark_internal_faces(start.part, 1e3 * carving.rounding(), assembly);
+  mark_internal_faces(start.part, 1e3 * carving.rounding() + 2.0 * gap, assembly);  // of rests, beyond a gap
   for (size_t i = 0; i < bodies.size(); ++i) {
     if (bodies[i].cut.as != Cut::As::held) continue;
     if (faces[i].empty())

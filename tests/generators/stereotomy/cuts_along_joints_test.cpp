@@ -17,6 +17,8 @@ using test::kThickness;
 using test::plane;
 using test::wall;
 
+constexpr double kFar = 1e9;  // m
+
 // m2, of the faces across y of free blocks, or of the last support, that something can touch.
 double touched_area(const Assembly& assembly, double y, bool of_support) {
   double area = 0.0;
@@ -95,6 +97,39 @@ TEST(CutsAlongJoints, WhatARestSharesWithItsStoneIsInternal) {
   const Assembly assembly = generate(c);
   EXPECT_EQ(touched_area(assembly, 3.0, false), 0.0);
   EXPECT_NEAR(touched_area(assembly, 3.001, false), kThickness * kHeight, 1e-12) << "rounding, m2";
+}
+
+// As above, 50 mm beyond joints that a gap opens by up to 2 mm: the rest and its stone are one.
+TEST(CutsAlongJoints, AGapInsideAStoneIsInternal) {
+  Case c = wall({plane({0.0, 3.05, 0.0}, {0.0, 1.0, 0.0})});
+  c.geometry.bond = StackBond{6, 4, 2};
+  c.geometry.imperfections = Imperfections{};
+  c.geometry.imperfections->gap = 2e-3;
+  const Assembly assembly = generate(c);
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const std::vector<Vec3> points = face_points(assembly, f);
+      const bool lies_there =
+          std::ranges::all_of(points, [](const Vec3& p) { return std::abs(p.y() - 3.0) < 3e-3; });
+      EXPECT_FALSE(lies_there && assembly.face_kinds[f] != FaceKind::internal) << part.block;
+    }
+}
+
+// A level plane 0.5 mm above a bed: what it leaves of the next course joined into a slab over the whole wall.
+// Each rest of 1 m joins the stone of 1 m below, half of which it covers at least.
+TEST(CutsAlongJoints, RestsOfACourseMakeNoSlab) {
+  const auto level = [](double z) { return generate(wall({plane({0.0, 0.0, z}, {0.0, 0.0, 1.0})})); };
+  const Assembly assembly = level(1.5005);
+  EXPECT_EQ(assembly.blocks.size(), level(1.5).blocks.size());
+  std::vector<double> low(assembly.blocks.size(), kFar), high(assembly.blocks.size(), -kFar);
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const Vec3& p : face_points(assembly, f)) {
+        low[part.block] = std::min(low[part.block], p.y());
+        high[part.block] = std::max(high[part.block], p.y());
+      }
+  for (size_t b = 0; b < assembly.blocks.size(); ++b)
+    EXPECT_TRUE(assembly.blocks[b].fixed || high[b] - low[b] < 2.0 + 1e-9) << b;
 }
 
 // The corners where an oblique plane meets head joints between the skins lie on no edge across: stones with
