@@ -42,14 +42,16 @@ int vertex_at(const Vec3& p, double distance, std::vector<Vec3>* vertices) {
 
 BlockSurface united_surface(const ExportModel& model, const std::vector<int>& parts) {
   const Assembly& assembly = model.assembly;
-  std::vector<PartFace> faces;
+  std::vector<PlanePolygon> faces;
   double size = 0.0;
   for (const int p : parts) {
     const Part& part = assembly.parts[p];
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      PartFace& face = faces.emplace_back(PartFace{p, face_points(assembly, f)});
-      for (Vec3& corner : face.corners) corner = model.placed(part.block, corner);
-      for (const Vec3& corner : face.corners) size = std::max(size, (corner - faces[0].corners[0]).norm());
+      std::vector<Vec3> corners = face_points(assembly, f);
+      for (Vec3& corner : corners) corner = model.placed(part.block, corner);
+      faces.emplace_back(std::move(corners));
+      for (const Vec3& corner : faces.back().corners)
+        size = std::max(size, (corner - faces[0].corners[0]).norm());
     }
   }
   constexpr double kSamePoint = 1e-8;  // of the size, ten times the tolerance of union_faces()

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/model/joint_rule.hpp"
+#include "assembly/model/polygon_parts.hpp"
 #include "generators/decomposition/decompose.hpp"
 #include "generators/importer/import_supports.hpp"
 #include "generators/importer/readers.hpp"
@@ -136,6 +138,31 @@ std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<
   return ties;
 }
 
+/// m2, of the faces of a block in whose plane a polygon lies, as far as they have it in common: positive for
+/// faces that look along the normal n, negative for those that look against it.
+double facing(const Assembly& assembly, int block, const std::vector<Vec3>& polygon, const Vec3& n,
+              const JointRule& rule) {
+  double sum = 0.0;
+  for (const PlanePolygon& face : faces_of_block(assembly, block)) {
+    const double along = face.plane.normal.dot(n);
+    const double gap = face.plane.normal.dot(polygon_centroid(polygon)) - face.plane.offset;
+    if (std::abs(along) < std::cos(rule.max_angle) || std::abs(gap) > rule.margin) continue;
+    const std::vector<Vec3> common = divide(polygon, face, 0.0).inside;
+    if (!common.empty()) sum += std::copysign(polygon_area(common), along);
+  }
+  return sum;
+}
+
+/// The unit normal of an interface, from block a to block b. The side of a centroid is not that of the joint
+/// where a block reaches round another: it decides only where the interface lies in no face.
+Vec3 normal_of(const std::vector<Vec3>& interface, int a, int b, const Assembly& assembly,
+               const JointRule& rule) {
+  const Vec3 n = polygon_plane(interface).normal;
+  const double out = facing(assembly, a, interface, n, rule) - facing(assembly, b, interface, n, rule),
+               apart = n.dot(assembly.blocks[b].centroid - assembly.blocks[a].centroid);
+  return (out != 0.0 ? out : apart) < 0.0 ? Vec3(-n) : n;
+}
+
 }  // namespace
 
 Assembly import_blocks(const ImportedBlocks& source, double density, ImportReport* report) {
@@ -170,6 +197,7 @@ std::string contacts_csv(const ImportedBlocks& source, const Assembly& assembly,
   std::map<std::string, int> block_of;
   for (size_t b = 0; b < report.origins.size(); ++b) block_of[report.origins[b].name] = static_cast<int>(b);
   std::string csv = "block_a,block_b,joint,x,y,z,nx,ny,nz,gap_m,area_m2\n";
+  const JointRule rule = joint_rule(smallest_block_size(assembly), 0.0);
   int joint = 0;
   for (const RawInterface& face : read_compas_interfaces(source.path)) {
     for (const std::string& name : {face.block_a, face.block_b})
@@ -177,8 +205,7 @@ std::string contacts_csv(const ImportedBlocks& source, const Assembly& assembly,
     const int a = block_of[face.block_a], b = block_of[face.block_b];
     std::vector<Vec3> corners;
     for (const Vec3& p : face.points) corners.push_back(to_world(source, p));
-    Vec3 n = polygon_plane(corners).normal;
-    if (n.dot(assembly.blocks[b].centroid - assembly.blocks[a].centroid) < 0.0) n = -n;
+    const Vec3 n = normal_of(corners, a, b, assembly, rule);
     const double area = polygon_area(corners) / static_cast<double>(corners.size());
     for (const Vec3& p : corners)
       csv += fmt::format("{},{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},0,{:.17g}\n", a, b, joint,

@@ -15,8 +15,9 @@ namespace cupola {
 Assembly import_blocks(const ImportedBlocks& source, double density, ImportReport* report = nullptr);
 
 /// The interfaces of a COMPAS file as contact points, in the CSV format of `contact: {method: file}`: one
-/// point per corner, the normal from block_a towards the centroid of block_b, gap zero, and equal shares of
-/// the polygon's area. Throws InputError if the file is not a COMPAS assembly or has no interfaces.
+/// point per corner, the outward normal of the face of block_a (or inward of block_b) in whose plane it lies,
+/// in no face that towards the centroid of block_b, gap zero, and equal shares of the polygon's area. Throws
+/// InputError if the file is not a COMPAS assembly or has no interfaces.
 std::string contacts_csv(const ImportedBlocks& source, const Assembly& assembly, const ImportReport& report);
 
 }  // namespace cupola

@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "generators/decomposition/triangle_mesh.hpp"
 #include "generators/importer/mesh_repair.hpp"
@@ -27,6 +29,23 @@ inline RawBlock prism(const std::vector<Eigen::Vector2d>& polygon, double depth,
   block.mesh.faces.push_back(front);
   block.mesh.faces.push_back(back);
   return block;
+}
+
+/// The blocks as objects of an OBJ file.
+inline std::string obj_of(const std::vector<RawBlock>& blocks) {
+  std::string text;
+  size_t first = 1;
+  for (const RawBlock& block : blocks) {
+    text += "o " + block.name + "\n";
+    for (const Vec3& p : block.mesh.vertices) text += fmt::format("v {} {} {}\n", p.x(), p.y(), p.z());
+    for (const auto& face : block.mesh.faces) {
+      text += "f";
+      for (const int v : face) text += fmt::format(" {}", first + static_cast<size_t>(v));
+      text += "\n";
+    }
+    first += block.mesh.vertices.size();
+  }
+  return text;
 }
 
 /// A block rotated by an irrational angle about an irrational axis and translated.

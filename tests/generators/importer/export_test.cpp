@@ -2,6 +2,7 @@
 
 #include "assembly/export/export.hpp"
 
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "assembly/base/error.hpp"
 #include "generators/generate.hpp"
 #include "tests/fresh_folder.hpp"
+#include "tests/generators/meshes.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::export_test {
@@ -92,6 +94,34 @@ TEST(Export, ClosesBlocksThatAreNotConvex) {
     SCOPED_TRACE(ending);
     write_export(folder + "/again" + ending, {original, {}, {}});
     expect_same_blocks(original, imported(folder + "/again" + ending, original));
+  }
+}
+
+// A hook lies on a table and reaches below it on both sides, so that its centroid is lower.
+TEST(Export, InterfacesLookOutOfTheirFirstBlock) {
+  const std::string folder = test::fresh_folder("exported");
+  const std::vector<Eigen::Vector2d> hook{{-1, -3},  {-0.2, -3}, {-0.2, 1}, {1.2, 1},
+                                          {1.2, -3}, {2, -3},    {2, 1.5},  {-1, 1.5}};
+  std::ofstream(folder + "/two.obj") << obj_of(
+      {prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1.0, "0"), prism(hook, 1.0, "1")});
+  ImportedBlocks source;
+  source.path = folder + "/two.obj";
+  source.supports = {"0"};
+  const Assembly original = import_blocks(source, 1000.0);
+  ASSERT_LT(original.blocks[1].centroid.z(), original.blocks[0].centroid.z());
+  for (const int first : {0, 1}) {
+    ExportedJoint joint;
+    joint.block_a = first;
+    joint.block_b = 1 - first;
+    joint.outline = {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+    source.path = folder + "/two.json";
+    write_export(source.path, {original, {}, {joint}});
+    ImportReport report;
+    const Assembly again = import_blocks(source, 1000.0, &report);
+    const std::string csv = contacts_csv(source, again, report);
+    EXPECT_NE(csv.find(first == 0 ? "\n0,1,0,0,0,1,0,0,1,0,0.25\n" : "\n1,0,0,0,0,1,-0,-0,-1,0,0.25\n"),
+              std::string::npos)
+        << csv;
   }
 }
 
