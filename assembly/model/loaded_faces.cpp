@@ -7,6 +7,8 @@
 
 #include <boost/math/quadrature/gauss.hpp>
 
+#include "assembly/model/polygon_parts.hpp"
+
 namespace cupola {
 namespace {
 
@@ -64,6 +66,26 @@ class Columns {
   double widest_ = 0.0;  // m
 };
 
+/// The pieces of faces that no other part of their block hides.
+std::vector<LoadedFace> on_surface(const Assembly& assembly, const std::vector<LoadedFace>& faces) {
+  constexpr double kSamePlace = 1e-9;  // of the size of a block: above the rounding of coordinates
+  std::vector<LoadedFace> pieces;
+  std::vector<PlanePolygon> of_block;
+  int block = -1;
+  for (const LoadedFace& face : faces) {
+    if (face.block != block) of_block = faces_of_block(assembly, face.block);
+    block = face.block;
+    const double tolerance = kSamePlace * std::cbrt(assembly.blocks[block].volume);
+    for (std::vector<Vec3>& polygon : uncovered(PlanePolygon(face.polygon), of_block, tolerance)) {
+      LoadedFace& piece = pieces.emplace_back(face);
+      piece.centroid = polygon_centroid(polygon);
+      piece.area = polygon_area(polygon);
+      piece.polygon = std::move(polygon);
+    }
+  }
+  return pieces;
+}
+
 }  // namespace
 
 bool looks_up(const LoadedFace& face) {
@@ -111,7 +133,7 @@ std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const 
       faces.push_back(loaded_face(assembly, p, f));
     }
   }
-  return faces;
+  return on_surface(assembly, faces);
 }
 
 Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity) {

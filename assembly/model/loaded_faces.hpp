@@ -29,7 +29,8 @@ std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, d
 
 bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member);
 
-/// Faces of some kinds on the free blocks of a member ("": all), for parts in a range of rings.
+/// Faces of some kinds on the free blocks of a member ("": all), for parts in a range of rings, without what
+/// other parts of the same block hide.
 std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const FaceKind> kinds,
                                       int from_ring, int to_ring, const std::string& member);
 

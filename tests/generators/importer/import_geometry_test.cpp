@@ -1,8 +1,11 @@
 // What the importer makes of surfaces: common planes, volumes, densities, supports.
 
+#include <array>
 #include <cmath>
 
+#include "assembly/model/loaded_faces.hpp"
 #include "tests/generators/importer/import_files.hpp"
+#include "tests/generators/meshes.hpp"
 
 namespace cupola::import_test {
 namespace {
@@ -133,6 +136,21 @@ TEST_F(Import, AppliesDensitiesOfTheCase) {
   EXPECT_NEAR(model.blocks[1].mass, 3510.0, 1e-9);
   source.densities = {{{"middle"}, 3510.0}};
   EXPECT_THROW(import_blocks(source, 2000.0), InputError);
+}
+
+// A part that covers another face of its stone in part leaves the rest of it to loads.
+TEST_F(Import, LoadsActOnTheSurfaceOfAStone) {
+  for (const std::vector<Eigen::Vector2d>& section : {l_shape(), u_shape(), t_shape(), cross_shape()}) {
+    ImportedBlocks source;
+    source.path = write("stone.obj", obj_of({prism(section, 1.5)}));
+    const Assembly stone = import_blocks(source, 1.0);
+    double drawn = 2.0 * stone.blocks[0].volume / 1.5, loaded = 0.0;
+    for (size_t i = 0; i < section.size(); ++i)
+      drawn += 1.5 * (section[(i + 1) % section.size()] - section[i]).norm();
+    for (const LoadedFace& face : faces_of_kind(stone, std::array{FaceKind::free}, -1, 0, ""))
+      loaded += face.area;
+    EXPECT_NEAR(loaded, drawn, 1e-14 * drawn) << "rounding of sums of areas";
+  }
 }
 
 // A prism with 128 sides is one convex part with 256 vertices.

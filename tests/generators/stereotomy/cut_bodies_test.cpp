@@ -1,12 +1,14 @@
 // Bodies cut from members: volumes against closed forms, which pieces become blocks, and what is refused.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/loaded_faces.hpp"
 #include "tests/generators/models.hpp"
 #include "tests/generators/stereotomy/cut_wall.hpp"
 
@@ -53,6 +55,24 @@ TEST(CutBodies, ADoorIsAPrism) {
   const Case c = wall({prism({1.3, 2.1, 2.1, 1.7, 1.3}, {-1.0, -1.0, 1.6, 2.0, 1.6})});
   const double door = 0.8 * 1.6 + 0.5 * 0.8 * 0.4;
   EXPECT_NEAR(volume_of(c, &report), kWhole - door * kThickness, 1e-13);
+}
+
+// The ends of a wall and the reveals of its window. Pieces of a stone between the corners of the window lie on
+// each other with parts of their faces.
+TEST(CutBodies, LoadsActOnTheRevealsAlone) {
+  const std::vector<double> x{1.1, 2.3, 2.45, 1.7, 1.0}, z{0.9, 0.8, 1.7, 2.2, 1.6};
+  Cut window = prism(x, z);
+  window.axis = Cut::Axis::y;
+  Case c = wall_case(10, 8);
+  c.geometry.surface = WallSurface{.length = kLength, .height = kHeight, .thickness = kThickness};
+  c.geometry.cuts = {window};
+  double area = 2.0 * kHeight;
+  for (size_t i = 0; i < x.size(); ++i)
+    area += std::hypot(x[(i + 1) % x.size()] - x[i], z[(i + 1) % x.size()] - z[i]);
+  double loaded = 0.0;
+  for (const LoadedFace& face : faces_of_kind(generate(c), std::array{FaceKind::free}, 0, kLastRing, ""))
+    loaded += face.area;
+  EXPECT_NEAR(loaded, kThickness * area, 1e-13) << "rounding of sums of areas";
 }
 
 TEST(CutBodies, ARoundWindowIsAPolygon) {
