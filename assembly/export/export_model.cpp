@@ -9,27 +9,26 @@
 namespace cupola {
 namespace {
 
-/// True if every edge joins two faces, which run along it in opposite directions. The parts of generated
-/// blocks share vertices, and all faces between them are `internal`; those of cut and of imported blocks may
-/// meet in other faces, or along a part of a face.
-bool is_closed(const BlockSurface& surface) {
-  std::map<std::pair<int, int>, int> runs;  // of faces along an edge, in one direction
-  for (const std::vector<int>& face : surface.faces)
-    for (size_t i = 0; i < face.size(); ++i) ++runs[{face[i], face[(i + 1) % face.size()]}];
-  return std::all_of(runs.begin(), runs.end(), [&](const auto& run) {
-    return run.second == 1 && runs.contains({run.first.second, run.first.first});
-  });
-}
-
-/// True if the faces hang together by their vertices. The two arms of a stone of a groin vault have vertices
-/// of their own.
-bool is_connected(const BlockSurface& surface) {
-  DisjointSets parts(surface.vertices.size());
-  for (const std::vector<int>& face : surface.faces)
-    for (const int v : face) parts.join(v, face.front());
-  return std::all_of(surface.faces.begin(), surface.faces.end(), [&](const std::vector<int>& face) {
-    return parts.root(face.front()) == parts.root(surface.faces.front().front());
-  });
+/// True if every edge joins two faces, which run along it in opposite directions, and all faces hang together
+/// by their edges. The parts of generated blocks share vertices, and all faces between them are `internal`;
+/// those of cut and of imported blocks may meet in other faces, or along a part of a face, and the two arms
+/// of a stone of a groin vault have vertices of their own.
+bool is_one_surface(const BlockSurface& surface) {
+  std::map<std::pair<int, int>, int> face_along;  // an edge, in one direction
+  for (size_t f = 0; f < surface.faces.size(); ++f) {
+    const std::vector<int>& face = surface.faces[f];
+    for (size_t i = 0; i < face.size(); ++i)
+      if (!face_along.try_emplace({face[i], face[(i + 1) % face.size()]}, f).second) return false;
+  }
+  DisjointSets joined(surface.faces.size());
+  for (const auto& [edge, face] : face_along) {
+    const auto other = face_along.find({edge.second, edge.first});
+    if (other == face_along.end()) return false;
+    joined.join(face, other->second);
+  }
+  for (size_t f = 0; f < surface.faces.size(); ++f)
+    if (joined.root(static_cast<int>(f)) != 0) return false;
+  return true;
 }
 
 /// Number of a vertex within `distance` of a point, which is added if there is none.
@@ -86,7 +85,7 @@ std::vector<BlockSurface> block_surfaces(const ExportModel& model) {
     }
   }
   for (size_t b = 0; b < surfaces.size(); ++b)
-    if (parts_of[b].size() > 1 && !(is_closed(surfaces[b]) && is_connected(surfaces[b])))
+    if (parts_of[b].size() > 1 && !is_one_surface(surfaces[b]))
       surfaces[b] = united_surface(model, parts_of[b]);
   return surfaces;
 }

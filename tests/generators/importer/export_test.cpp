@@ -97,6 +97,27 @@ TEST(Export, ClosesBlocksThatAreNotConvex) {
   }
 }
 
+// Two parts that lie on each other with a part of a face, and have one corner in common.
+TEST(Export, UnitesPartsThatShareACorner) {
+  const std::string folder = test::fresh_folder("exported");
+  std::ofstream(folder + "/0.obj") << obj_of({prism(l_shape(), 1.0, "0")});
+  ImportedBlocks source;
+  source.path = folder + "/0.obj";
+  source.supports = {"0"};
+  Assembly original = import_blocks(source, 1000.0);
+  ASSERT_EQ(original.parts.size(), 2u);
+  std::ranges::replace(original.face_kinds, FaceKind::internal, FaceKind::free);
+  const std::vector<Vec3>& corners = original.vertices;
+  const auto first =
+      std::ranges::find_if(corners, [&](const Vec3& p) { return std::ranges::count(corners, p) > 1; });
+  ASSERT_NE(first, corners.end());
+  const auto same = std::find(first + 1, corners.end(), *first);
+  std::ranges::replace(original.face_vertices, static_cast<int>(same - corners.begin()),
+                       static_cast<int>(first - corners.begin()));
+  write_export(folder + "/again.obj", {original, {}, {}});
+  expect_same_blocks(original, imported(folder + "/again.obj", original));
+}
+
 // A hook lies on a table and reaches below it on both sides, so that its centroid is lower.
 TEST(Export, InterfacesLookOutOfTheirFirstBlock) {
   const std::string folder = test::fresh_folder("exported");
