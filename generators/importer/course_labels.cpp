@@ -19,7 +19,9 @@ class Labels {
  public:
   Labels(const Courses& courses, const CourseFinder& finder, const JointGraph& graph, const Sheet& sheet,
          Assembly* assembly)
-      : courses_(courses), finder_(finder), graph_(graph), sheet_(sheet), assembly_(*assembly) {}
+      : courses_(courses), finder_(finder), graph_(graph), sheet_(sheet), assembly_(*assembly) {
+    set_wall();
+  }
 
   void set() {
     assembly_.num_rings = static_cast<int>(courses_.stones.size());
@@ -54,24 +56,31 @@ class Labels {
     if (sheet_.thrust_lines == one)  // constant: outwards turns from the first springing to the last
       return Eigen::AngleAxisd(sheet_.turn, Vec3::UnitZ()) * Vec3::UnitY();
     if (sheet_.closed) return Vec3::UnitZ().cross(*sheet_.outward(block.centroid));
-    if (stones.size() == 1 && sheet_.thrust_lines == none) return along_wall(stones.front());
+    if (stones.size() == 1 && sheet_.thrust_lines == none) return along_wall_;
     const Vec3 &before = assembly_.blocks[stones[slot > 0 ? slot - 1 : slot]].centroid,
                &after = assembly_.blocks[stones[std::min(slot + 1, stones.size() - 1)]].centroid;
     return (after - before).stableNormalized();
   }
 
-  /// For the only stone of a course of a wall, as a lintel: along the course of most stones, in a pier of
-  /// single stones along the longer side of the stone.
-  Vec3 along_wall(int block) const {
+  /// The directions along and out of a wall: along the course of most stones, in a pier of single stones along
+  /// the longer side of all; out of it towards +y, of a wall along y towards +x.
+  void set_wall() {
     const std::vector<int>& most = *std::ranges::max_element(courses_.stones, {}, &std::vector<int>::size);
-    if (most.size() > 1)
-      return (assembly_.blocks[most.back()].centroid - assembly_.blocks[most.front()].centroid)
-          .stableNormalized();
-    Eigen::AlignedBox3d box;
-    for (const Part& part : assembly_.parts)
-      for (int f = part.face_start; part.block == block && f < part.face_start + part.num_faces; ++f)
-        for (const Vec3& corner : face_points(assembly_, f)) box.extend(corner);
-    return box.sizes().x() < box.sizes().y() ? Vec3::UnitY() : Vec3::UnitX();
+    if (most.size() > 1) {
+      along_wall_ = (assembly_.blocks[most.back()].centroid - assembly_.blocks[most.front()].centroid)
+                        .stableNormalized();
+    } else {
+      Eigen::AlignedBox3d box;
+      for (const Part& part : assembly_.parts)
+        for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+          for (const Vec3& corner : face_points(assembly_, f))
+            if (!assembly_.blocks[part.block].fixed) box.extend(corner);
+      along_wall_ = box.sizes().x() < box.sizes().y() ? Vec3::UnitY() : Vec3::UnitX();
+    }
+    constexpr double kAlongY = 1e-9;  // cosine, rounding
+    out_of_wall_ = Vec3::UnitZ().cross(along_wall_);
+    if ((std::abs(out_of_wall_.y()) > kAlongY ? out_of_wall_.y() : out_of_wall_.x()) < 0.0)
+      out_of_wall_ = -out_of_wall_;
   }
 
   FaceKind kind_of_joint(int block, const std::vector<int>& others) const {
@@ -93,7 +102,7 @@ class Labels {
     Vec3 n = t.cross(m);
     if (!sheet_.closed && sheet_.thrust_lines != Sheet::ThrustLines::one) {  // chains may run either way
       const std::optional<Vec3> outward = sheet_.outward(assembly_.blocks[b].centroid);
-      if (n.dot(outward ? *outward : Vec3(Vec3::UnitY())) < 0.0) n = -n;
+      if (n.dot(outward.value_or(out_of_wall_)) < 0.0) n = -n;
     }
     std::map<int, std::vector<int>> others;
     for (const JointGraph::Face& face : graph_.faces[b]) others[face.face].push_back(face.other);
@@ -130,6 +139,7 @@ class Labels {
   const JointGraph& graph_;
   const Sheet& sheet_;
   Assembly& assembly_;
+  Vec3 along_wall_, out_of_wall_;  // horizontal unit vectors
 };
 
 }  // namespace

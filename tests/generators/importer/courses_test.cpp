@@ -4,6 +4,7 @@
 
 #include <array>
 #include <fstream>
+#include <numbers>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,9 +13,11 @@
 #include "assembly/case/case_reader.hpp"
 #include "assembly/export/export.hpp"
 #include "assembly/files/atomic_file.hpp"
+#include "assembly/model/loaded_faces.hpp"
 #include "generators/generate.hpp"
 #include "tests/fresh_folder.hpp"
 #include "tests/generators/importer/import_files.hpp"
+#include "tests/generators/meshes.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::courses_test {
@@ -98,6 +101,52 @@ TEST(Courses, OfALintelHaveBothFacesOfTheWall) {
     ASSERT_EQ(found.size(), 2u);
     EXPECT_NEAR(found[0], 2 * 0.6 * 3.0, 1e-12);
     EXPECT_NEAR(found[1], 4.0 * 0.5, 1e-12);
+  }
+}
+
+/// Those of all extrados look the same way: the sum of their normals times their areas is as long as that of
+/// their areas.
+void expect_one_outside(const Assembly& assembly) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0.0;
+  for (const LoadedFace& face : faces_of_kind(assembly, std::array{FaceKind::extrados}, 0, kLastRing, "")) {
+    sum += face.area * face.normal;
+    area += face.area;
+  }
+  EXPECT_GT(area, 0.0);
+  EXPECT_NEAR(sum.norm(), area, 1e-12 * area) << "rounding of sums: " << sum.transpose();
+}
+
+/// An imported tower of single stones, turned about z.
+Assembly tower_of(const std::vector<RawBlock>& stones, double turn) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder("tower") + "/tower.obj";
+  scene.geometry.imported->fixed_by = SupportRule::lowest;
+  std::vector<RawBlock> turned = stones;
+  for (RawBlock& stone : turned)
+    for (Vec3& p : stone.mesh.vertices) p = Eigen::AngleAxisd(turn, Vec3::UnitZ()) * p;
+  write_text_atomically(scene.geometry.imported->path, obj_of(turned));
+  GenerateReport report;
+  Assembly tower = generate(scene, &report);
+  EXPECT_EQ(report.import->courses.kind, "a wall") << report.import->courses.refusal;
+  EXPECT_EQ(tower.num_rings, 5);
+  return tower;
+}
+
+// Of stones turned by a right angle from one to the next, and of those alike, whose longer side lies along x
+// or, but for rounding, along y.
+TEST(Courses, OfATowerOfSingleStonesHaveOneOutside) {
+  for (const double other : {1.0, 1.1}) {
+    std::vector<RawBlock> stones;
+    for (int k = 0; k < 6; ++k) {
+      const double x = k % 2 == 0 ? 1.1 : other, z = 0.5 * k;
+      stones.push_back(prism({{0, z}, {x, z}, {x, z + 0.5}, {0, z + 0.5}}, 2.1 - x, std::to_string(k)));
+    }
+    for (int quarter = 0; quarter < 4; ++quarter) {
+      SCOPED_TRACE(fmt::format("{} {}", other, quarter));
+      expect_one_outside(tower_of(stones, 0.5 * std::numbers::pi * quarter));
+    }
   }
 }
 
