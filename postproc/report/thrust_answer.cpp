@@ -126,12 +126,14 @@ std::string at_level(const std::string& name, const RingSum& cut) {
 }
 
 /// "at the springing, z = 0 m", or "at the base, z = -4.5 m; at the springing, z = 0 m, 21.3 kN". The courses
-/// of an arch are counted from one side: where the sides differ, the other value is not known.
+/// of an arch are counted from one side: where the sides differ, the other value is not known. Nor is it where
+/// supports hold higher courses, whose push is none of the sum over one course.
 std::string level_text(const Evaluation& e, const Sheet& sheet, bool differ) {
   const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
-  const std::string at_base = at_level(springing == &base ? "springing" : "base", base) +
-                              (is_held_higher(e, sheet) ? kAndHigher : "");
-  if (!springing || springing == &base || differ) return at_base;
+  const bool held_higher = is_held_higher(e, sheet);
+  const std::string at_base =
+      at_level(springing == &base ? "springing" : "base", base) + (held_higher ? kAndHigher : "");
+  if (!springing || springing == &base || differ || held_higher) return at_base;
   return fmt::format("{}; {}, {}", at_base, at_level("springing", *springing),
                      force_text(springing->radial_thrust));
 }

@@ -1,5 +1,7 @@
 #include "postproc/evaluation/thrust.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "postproc/report/answers.hpp"
@@ -127,6 +129,14 @@ TEST(Thrust, CountsSupportsOfEveryCourse) {
   e.summary.status = Status::stable;
   e.summary.weight_N = 100.0;
   EXPECT_NE(thrust_answer(e).value().detail.find("m, and at supports of higher courses"), std::string::npos)
+      << thrust_answer(e)->detail;
+  // The first course is upright, the second leans: of its ring sum, one support takes an unknown share.
+  e.assembly.vertices = {{0, 0, 0}, {0, 1, 0}, {1, 0, 1}};
+  e.assembly.parts = {{.block = 3, .ring = 1}};
+  e.assembly.add_face(std::array{0, 1, 2}, FaceKind::intrados);
+  EXPECT_EQ(thrust_answer(e)->detail.find("at the springing"), std::string::npos) << thrust_answer(e)->detail;
+  EXPECT_NE(thrust_answer(e)->detail.find("at the base, z = 0 m, and at supports of higher courses"),
+            std::string::npos)
       << thrust_answer(e)->detail;
 }
 
