@@ -52,7 +52,7 @@ void keep_used_vertices(const std::vector<Vec3>& all, RawBlock* block) {
 }  // namespace
 
 std::vector<RawBlock> read_obj(const std::string& path) {
-  TextLines lines(path);
+  TextLines lines(path, "", TextLines::Backslash::continues);
   std::vector<Vec3> vertices;
   std::vector<RawBlock> blocks;
   bool has_objects = false;

@@ -22,8 +22,8 @@ bool parse(std::string_view word, T* value) {
 
 }  // namespace
 
-TextLines::TextLines(std::string path, std::string_view separators)
-    : path_(std::move(path)), text_(read_text(path_)), separators_(separators) {}
+TextLines::TextLines(std::string path, std::string_view separators, Backslash backslash)
+    : path_(std::move(path)), text_(read_text(path_)), separators_(separators), backslash_(backslash) {}
 
 bool TextLines::next() {
   const std::string between = std::string(kWhite) + std::string(separators_);
@@ -34,7 +34,8 @@ bool TextLines::next() {
     position_ = std::min(end + 1, text_.size());
     ++line_;
     const size_t last = line.find_last_not_of(kWhite);
-    bool continued = last != std::string_view::npos && line[last] == '\\';
+    bool continued =
+        backslash_ == Backslash::continues && last != std::string_view::npos && line[last] == '\\';
     if (continued) line = line.substr(0, last);
     for (size_t start = line.find_first_not_of(between); start != std::string_view::npos;) {
       if (line[start] == '#') {

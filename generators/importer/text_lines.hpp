@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,11 +13,14 @@ namespace cupola {
 /// A text file, read line by line and split into words. Messages name file and line.
 class TextLines {
  public:
-  /// `separators`: characters besides white space that separate words.
-  TextLines(std::string path, std::string_view separators = "");
+  /// What a `\` at the end of a line means.
+  enum class Backslash : std::uint8_t { is_text, continues };
 
-  /// Moves to the next line with words. A `#` at the start of a word begins a comment; a line that ends with
-  /// `\` goes on in the next one. Returns false at the end of the file.
+  /// `separators`: characters besides white space that separate words.
+  TextLines(std::string path, std::string_view separators = "", Backslash backslash = Backslash::is_text);
+
+  /// Moves to the next line with words. A `#` at the start of a word begins a comment. Returns false at the
+  /// end of the file.
   bool next();
   const std::vector<std::string_view>& words() const { return words_; }
   /// The line from a word to the end of the last word, as written; empty without that word.
@@ -38,6 +42,7 @@ class TextLines {
  private:
   std::string path_, text_, subject_;
   std::string_view separators_;
+  Backslash backslash_;
   size_t position_ = 0;
   int line_ = 0;
   std::vector<std::string_view> words_;
