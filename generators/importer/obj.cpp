@@ -57,6 +57,7 @@ std::vector<RawBlock> read_obj(const std::string& path) {
   std::vector<RawBlock> blocks;
   bool has_objects = false;
   std::optional<int> course;  // of the group in force
+  const auto is_last_empty = [&] { return !blocks.empty() && blocks.back().mesh.faces.empty(); };
   while (lines.next()) {
     const auto& words = lines.words();
     if (words[0] == "v") {
@@ -64,13 +65,11 @@ std::vector<RawBlock> read_obj(const std::string& path) {
     } else if (words[0] == "g" && has_objects) {
       course = words.size() > 1 ? course_of_group(lines.rest(1)) : std::nullopt;
     } else if (words[0] == "o" || words[0] == "g") {
-      if (words[0] == "o" && !has_objects) {
-        has_objects = true;
-        if (!blocks.empty() && blocks.back().mesh.faces.empty()) {  // a group of objects
-          course = course_of_group(blocks.back().name);
-          blocks.pop_back();
-        }
+      if (!has_objects && is_last_empty()) {  // a group of vertices, or of the first objects
+        if (words[0] == "o") course = course_of_group(blocks.back().name);
+        blocks.pop_back();
       }
+      has_objects = has_objects || words[0] == "o";
       const std::string name = words.size() > 1 ? std::string(lines.rest(1)) : std::to_string(blocks.size());
       blocks.push_back({name, lines.where(), {}, {}, false, {}});
       lines.enter(fmt::format("block {}", name));
@@ -84,6 +83,7 @@ std::vector<RawBlock> read_obj(const std::string& path) {
       blocks.back().mesh.faces.push_back(face);
     }
   }
+  if (!has_objects && blocks.size() > 1 && is_last_empty()) blocks.pop_back();
   for (RawBlock& block : blocks) {
     if (block.mesh.faces.empty())
       throw InputError(block.where, fmt::format("block {}: no faces", block.name));

@@ -80,6 +80,18 @@ TEST_F(Import, JoinsContinuedLinesOfObj) {
   for (const auto& face : blocks[0].mesh.faces) EXPECT_EQ(face.size(), 4u);
 }
 
+// Maya begins a file with the group `default`, which holds the vertices of the next one.
+TEST_F(Import, GroupsOfObjWithoutFacesAreNoBlocks) {
+  std::string text = obj_box("pCube1", 0, 0, 1);
+  text.replace(0, 2, "g default\ng ");
+  const std::vector<RawBlock> blocks = read_obj(write("maya.obj", text + "g default\n"));
+  ASSERT_EQ(blocks.size(), 1u);
+  EXPECT_EQ(blocks[0].name, "pCube1");
+  EXPECT_EQ(blocks[0].mesh.faces.size(), 6u);
+  EXPECT_NE(complaint(write("object.obj", "o empty\n" + obj_box("a", 0, 0, 1))).find("block empty: no faces"),
+            std::string::npos);
+}
+
 // A group is in force until the next one, from before the first object on.
 TEST_F(Import, GroupsOfObjObjectsNumberTheirCourses) {
   const std::string text = "g course 7\n" + obj_box("a", 0, 0, 1) + "g course 9\n" + obj_box("b", 0, 1, 9) +
