@@ -1,4 +1,7 @@
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -13,11 +16,18 @@ namespace {
 
 constexpr size_t kHeaderBytes = 84, kTriangleBytes = 50;
 
+/// Some programs write the words of the format in upper case.
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower;
+}
+
 PolygonMesh read_ascii(const std::string& path) {
   TextLines lines(path);
   PolygonMesh mesh;
   while (lines.next()) {
-    if (lines.words()[0] != "vertex") continue;
+    if (lower_case(lines.words()[0]) != "vertex") continue;
     mesh.vertices.push_back(lines.point(1));
     const int n = static_cast<int>(mesh.vertices.size());
     if (n % 3 == 0) mesh.faces.push_back({n - 3, n - 2, n - 1});
@@ -53,7 +63,7 @@ PolygonMesh read_binary(const std::string& path, const std::string& bytes) {
 
 // STL repeats shared vertices, so equal coordinates are merged before the mesh is split into components.
 std::vector<RawBlock> read_stl(const std::string& path) {
-  const std::string text = read_text(path);
+  const std::string text = lower_case(read_text(path));
   const bool ascii = text.starts_with("solid") && text.find("facet") != std::string::npos;
   PolygonMesh mesh = ascii ? read_ascii(path) : read_binary(path, read_bytes(path));
   merge_equal_vertices(&mesh);

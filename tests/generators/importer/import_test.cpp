@@ -1,6 +1,7 @@
 // Formats of block files: what is read from them.
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -139,6 +140,74 @@ TEST_F(Import, ReadsOffStlAndPly) {
   ASSERT_EQ(from_stl.blocks.size(), 2u);
   for (const Block& b : from_stl.blocks) EXPECT_NEAR(b.volume, 1.0 / 6, 1e-15);
 
+  std::ranges::transform(stl, stl.begin(), [](unsigned char c) { return std::toupper(c); });
+  source.path = write("upper.stl", stl);
+  EXPECT_EQ(import_blocks(source, 1.0).blocks.size(), 2u);
+
+  source.path = write("tet.ply",
+                      "ply\nformat ascii 1.0\ncomment made from C:\\models\\\nelement vertex 4\nproperty "
+                      "float x\nproperty float y\nproperty float z\n"
+                      "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+                      "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
+}
+
+TEST_F(Import, ReadsBinaryStlAndPly) {
+  const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const int t[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const auto raw = [](const auto& value) {
+    return std::string(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  std::string stl(80, ' ');
+  stl += raw(std::uint32_t{4});
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty "
+      "float z\n"
+      "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& corner : p)
+    for (float x : corner) ply += raw(x);
+  for (const auto& triangle : t) {
+    for (int i = 0; i < 3; ++i) stl += raw(0.0f);
+    for (int v : triangle)
+      for (float x : p[v]) stl += raw(x);
+    stl += raw(std::uint16_t{0});
+    ply += raw(std::uint8_t{3});
+    for (int v : triangle) ply += raw(std::int32_t{v});
+  }
+  ImportedBlocks source;
+  source.path = write("tet.stl", stl);
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
+  source.path = write("tet.ply", ply);
+  EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
+}
+
+TEST_F(Import, ConvertsUnitsAndAxes) {
+  ImportedBlocks source;
+  source.path = write("box.obj", obj_box("a", 0, 0, 1));
+  source.metres_per_unit = 0.01;
+  source.up = ImportedBlocks::UpAxis::y;  // (x, y, z) -> (x, -z, y)
+  const Assembly model = import_blocks(source, 1.0);
+  EXPECT_NEAR(model.blocks[0].volume, 1e-6, 1e-20);
+  EXPECT_NEAR((model.blocks[0].centroid - Vec3(0.005, -0.005, 0.005)).norm(), 0.0, 1e-16);
+}
+
+TEST_F(Import, ReadsDensityFlagsAndPartsOfBricks) {
+  const std::string corners_a = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1";
+  const std::string corners_b = "1,0,0,3,0,0,3,1,0,1,1,0,1,0,1,3,0,1,3,1,1,1,1,1";
+  ImportedBlocks source;
+  source.path = write("bricks.csv", "7,1,1,0,2500,0,0,0,0,0,0," + corners_a + ",9999," + corners_b + "\n");
+  ImportReport report;
+  const Assembly model = import_blocks(source, 1.0, &report);
+  ASSERT_EQ(model.blocks.size(), 1u);
+  EXPECT_EQ(report.parts, std::vector<int>{2});
+  EXPECT_NEAR(model.blocks[0].mass, 2500.0 * 3.0, 1e-9);
+  EXPECT_TRUE(model.blocks[0].fixed);
+}
+
+TEST_F(Import, SpringsAndRodsConnectBricks) {
+  const std::string left = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,1,1,0,1,1,1,1,0,1,1";
+  const std::string right = "2,0,0,3,0,0,3,1,0,2,1,0,2,0,1,3,0,1,3,1,1,2,1,1";
+  ImportedBlocks source;
   source.path =
       write("bricks.csv", "7,1,1,0,2500,0,0,0,0,0,0," + left + "\n8,0,1,0,2500,0,0,0,0,0,0," + right + "\n");
   source.springs = write("springs.csv", "1,7,1,0.5,0.25,8,2,0.5,0.25,5000,0.9\n");
