@@ -1,5 +1,7 @@
 // Makefile.run, the rules by which `cupola run` calls the programs.
 
+#include <regex>
+
 #include <gtest/gtest.h>
 
 #include "tests/pipeline/program_run.hpp"
@@ -40,6 +42,55 @@ TEST(Rules, EndTheMembersOfASweepWithMake) {
   std::ofstream(folder.file("long.yaml"))
       << kLongMotion << "sweep: [{key: joints.friction, values: [0.5, 0.7]}]\n";
   EXPECT_TRUE(solver_ends_with_make(folder, "long", "out/long_friction0.5/results"));
+}
+
+/// One block, twice as long as high, on an incline of slope 0.5: gravity leans instead of the ground. It
+/// slides where its friction is less.
+constexpr const char* kIncline = R"(geometry:
+  surface: {type: wall, length: 2, height: 1, thickness: 1}
+  bond: {type: stack, rings: 1, blocks_per_ring: 1, slices_per_block: 1}
+joints: {compliance: {per: area}}
+loads: {gravity: [4, 0, -8]}
+)";
+constexpr const char* kSweep = "sweep: [{key: joints.friction, values: [0.6, 0.8]}]\n";
+
+/// Cases and studies that are edited between calls of make.
+struct EditedFolder : ProgramFolder {
+  ProgramRun make(const std::string& goals) const {
+    return run("make -k -f " CUPOLA_SOURCE_DIR "/Makefile.run BIN=" CUPOLA_BIN_DIR " POST=--tables " + goals);
+  }
+  /// Name, value and status of the members of a sweep.
+  std::string rows(const std::string& name) const {
+    const std::string table = slurp(file("out/" + name + "/sweep.csv"));
+    return std::regex_replace(table.substr(table.find('\n') + 1),
+                              std::regex("([^,\n]*,[^,\n]*,[^,\n]*),[^\n]*\n"), "$1;");
+  }
+};
+
+/// How often each program ran, as "generate 2, solve 2, post 2".
+std::string stages(const ProgramRun& run) {
+  std::string text;
+  for (const char* program : {"generate", "solve", "post analyse"}) {
+    const std::regex call(std::string("(^|\n)cupola-") + program + " ");
+    const auto calls =
+        std::distance(std::sregex_iterator(run.out.begin(), run.out.end(), call), std::sregex_iterator());
+    text += (text.empty() ? "" : ", ") + std::string(program) + " " + std::to_string(calls);
+  }
+  return text;
+}
+
+// The first call after an edit shows the new verdict: all stages of the members run, once.
+TEST(Rules, RunAllStagesOfMembersAfterAnEdit) {
+  const EditedFolder folder;
+  std::ofstream(folder.file("block.yaml")) << kIncline << kSweep;
+  const ProgramRun first = folder.make("block");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_EQ(folder.rows("block"), "block_friction0.6,0.6,stable;block_friction0.8,0.8,stable;");
+  const std::string steeper = std::regex_replace(kIncline, std::regex("\\[4, "), "[5.6, ");
+  std::ofstream(folder.file("block.yaml")) << steeper << kSweep;
+  EXPECT_EQ(stages(folder.make("block")), "generate 2, solve 2, post analyse 2");
+  EXPECT_EQ(folder.rows("block"), "block_friction0.6,0.6,moving;block_friction0.8,0.8,stable;");
+  EXPECT_EQ(stages(folder.make("block")), "generate 0, solve 0, post analyse 0");
 }
 
 }  // namespace
