@@ -93,5 +93,35 @@ TEST(Rules, RunAllStagesOfMembersAfterAnEdit) {
   EXPECT_EQ(stages(folder.make("block")), "generate 0, solve 0, post analyse 0");
 }
 
+// A member that STRICT=1 refuses has no verdict any more, nor the one of the call before.
+TEST(Rules, AMemberThatFailsLosesItsVerdict) {
+  const EditedFolder folder;
+  std::ofstream(folder.file("block.yaml"))
+      << kIncline << "sweep: [{key: joints.friction, values: [0.6, 5]}]\n";
+  ASSERT_EQ(folder.make("block").code, 0);
+  EXPECT_EQ(folder.rows("block"), "block_friction0.6,0.6,stable;block_friction5,5,stable;");
+  EXPECT_NE(folder.make("block STRICT=1").code, 0);
+  EXPECT_EQ(folder.rows("block"), "block_friction0.6,0.6,stable;block_friction5,5,missing;");
+  EXPECT_NE(slurp(folder.file("out/block/sweep.csv")).find("no assembly: "), std::string::npos);
+}
+
+// A case that cannot be read any more takes neither its old numbers nor the other members' runs with it.
+TEST(Rules, AMemberWithABrokenCaseLosesItsNumbers) {
+  const EditedFolder folder;
+  std::filesystem::create_directory(folder.file("studies"));
+  std::ofstream(folder.file("studies/both.yaml")) << R"(runs: [{cases: a b, name: "{case}"}]
+tables: [{name: weights, columns: [{heading: weight, key: post.weight_N}]}]
+)";
+  for (const char* name : {"a.yaml", "b.yaml"})
+    std::ofstream(folder.file(name)) << kIncline << "material: {unit_weight: 20000}\n";
+  ASSERT_EQ(folder.make("both").code, 0);
+  std::ofstream(folder.file("a.yaml"), std::ios::app) << "title: [\n";
+  std::ofstream(folder.file("b.yaml")) << kIncline << "material: {unit_weight: 10000}\n";
+  const ProgramRun broken = folder.make("both");
+  EXPECT_NE(broken.err.find("a.yaml:"), std::string::npos) << broken.err;
+  EXPECT_EQ(slurp(folder.file("out/both/weights.csv")).find("weight\nnot run\n"), 0u) << broken.err;
+  EXPECT_EQ(stages(broken), "generate 2, solve 1, post analyse 1");
+}
+
 }  // namespace
 }  // namespace cupola::rules_test
