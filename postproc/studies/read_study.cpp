@@ -224,6 +224,12 @@ std::vector<StudyRun> members_of(const Study& study) {
 void require_known(const std::vector<StudyRun>& members, const std::string& path,
                    const std::string& runs_folder) {
   std::set<std::string> names = known_runs(path);
+  for (const StudyRun& member : members)
+    if (!member.case_name.empty() && names.contains(member.name))
+      throw InputError(FileLocation{path},
+                       fmt::format("a case or variant is named {}, like a member of the sweep, whose results "
+                                   "it would replace; rename it",
+                                   member.name));
   if (!runs_folder.empty())
     for (const auto& entry : fs::directory_iterator(runs_folder))
       if (entry.is_directory()) names.insert(entry.path().filename().string());

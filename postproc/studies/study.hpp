@@ -52,7 +52,8 @@ Study read_study(const std::string& path, const CaseOfStudy& of = {});
 std::vector<StudyRun> members_of(const Study& study);
 
 /// Throws InputError for a member that is neither a case nor a variant of the folder of `path`, or above it
-/// if that is studies/, nor, if a folder of runs is given, a run in it.
+/// if that is studies/, nor, if a folder of runs is given, a run in it; and for a member of a sweep that has
+/// the name, and so the folder, of a case or variant.
 void require_known(const std::vector<StudyRun>& members, const std::string& path,
                    const std::string& runs_folder = "");
 

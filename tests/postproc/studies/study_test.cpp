@@ -136,6 +136,22 @@ TEST(Study, EveryShippedStudyNamesRunsThatExist) {
   EXPECT_GE(studies, 16);
 }
 
+// Both would write to the folder arch_friction0.7.
+TEST(Study, RefusesAMemberWithTheNameOfACase) {
+  const ScratchFolder scratch;
+  const std::string path = scratch.write("arch.yaml", "title: swept\n");
+  const std::vector<StudyRun> members = {{"arch_friction0.7", "arch", {"joints.friction=0.7"}}};
+  EXPECT_EQ(members_text(members, path), "arch_friction0.7 arch joints.friction=0.7\n");
+  scratch.write("arch_friction0.7.yaml", "extends: arch.yaml\n");
+  try {
+    members_text(members, path);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("named arch_friction0.7, like a member"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(DocsPage, RefusesRunsOfDifferentOrChangedRevisions) {
   const ScratchFolder scratch;
   write_run(scratch, "a", "stable", 1);
