@@ -226,9 +226,12 @@ void throw_if_incomplete(const Evaluation& e, const std::string& output_folder) 
 }  // namespace
 
 ExitCode analyse(const AnalyseRequest& request) {
+  const std::string& folder = request.output_folder;
+  std::error_code not_there;
+  if (std::filesystem::equivalent(folder, request.run.results_folder, not_there))
+    throw InputError(FileLocation{folder}, "--output: is the folder of the results; give another");
   EvaluatedRun run = evaluate_run(request.run);
   Evaluation& e = run.evaluation;
-  const std::string& folder = request.output_folder;
   const FolderLock lock(folder);
   // The summary marks the folder as complete: remove the old one before the first file is replaced.
   std::filesystem::remove(in_folder(folder, "summary.json"));

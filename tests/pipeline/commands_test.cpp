@@ -164,6 +164,19 @@ TEST(Commands, EvaluateClaims) {
   EXPECT_TRUE(contains(slurp(folder.file("told/study.html")), "All blocks &lt;i&gt;are there."));
 }
 
+// Both folders have a summary.json, and the results would be lost.
+TEST(Commands, RefuseToEvaluateIntoTheFolderOfTheResults) {
+  const DomeFolder folder;
+  run_dome(folder, "low", "");
+  const auto before = folder.contents();
+  const ProgramRun run = folder.run(
+      "cupola-post analyse dome.yaml --assembly runs/low/assembly.vtu --results runs/low/results --output "
+      "runs/low/post/../results");
+  EXPECT_EQ(run.code, 2) << run.out;
+  EXPECT_TRUE(contains(run.err, "--output: is the folder of the results; give another")) << run.err;
+  EXPECT_EQ(folder.contents(), before);
+}
+
 TEST(Commands, RefuseAStudyOfUnknownRunsBeforeAnythingIsWritten) {
   const DomeFolder folder;
   std::filesystem::create_directories(folder.file("runs/low"));
