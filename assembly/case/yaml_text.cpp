@@ -174,7 +174,7 @@ CaseNode parse_yaml(const std::string& text, const std::string& file) {
   TreeBuilder second(file);
   try {
     YAML::Parser parser(stream);
-    if (!parser.HandleNextDocument(builder)) throw InputError(FileLocation{file}, "the file is empty");
+    if (!parser.HandleNextDocument(builder)) throw InputError(FileLocation{file}, "is empty");
     if (parser.HandleNextDocument(second))
       throw InputError(second.root.where, "a second YAML document starts here; a case file holds only one");
   } catch (const YAML::Exception& error) {

@@ -17,6 +17,8 @@
 namespace cupola {
 namespace {
 
+constexpr const char* kIsFolder = "is a folder: give the name of a file in it";
+
 [[noreturn]] void fail(const std::string& path, const char* what) {
   throw SystemError(fmt::format("{}: {}: {}", path, what, std::strerror(errno)));
 }
@@ -109,7 +111,7 @@ void check_output_file(const std::string& path) {
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status) || fs::is_regular_file(status)) return;
   throw InputError(FileLocation{path}, fs::is_directory(status)
-                                           ? "is a folder: give the name of a file in it"
+                                           ? kIsFolder
                                            : "is a device or a pipe: the output must be a regular file");
 }
 
@@ -131,12 +133,11 @@ std::string read_text(const std::string& path) {
 }
 
 std::string read_bytes(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path)) {
-    throw InputError(FileLocation{path}, errno == ENOENT ? "does not exist" : "cannot be read");
-  }
-  std::string text;
   std::error_code unknown;  // a pipe has no size
+  if (std::filesystem::is_directory(path, unknown)) throw InputError(FileLocation{path}, kIsFolder);
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(FileLocation{path}, errno == ENOENT ? "does not exist" : "cannot be read");
+  std::string text;
   if (const auto size = std::filesystem::file_size(path, unknown); !unknown) text.reserve(size);
   std::array<char, 1 << 16> chunk{};
   while (in.read(chunk.data(), chunk.size()) || in.gcount() > 0)

@@ -93,6 +93,16 @@ TEST(Rules, RunAllStagesOfMembersAfterAnEdit) {
   EXPECT_EQ(stages(folder.make("block")), "generate 0, solve 0, post analyse 0");
 }
 
+TEST(Rules, SayWhyASweepHasNoAssessment) {
+  const EditedFolder folder;
+  std::ofstream(folder.file("block.yaml")) << kIncline << kSweep;
+  const ProgramRun run = folder.make("block_assessment");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_NE(run.err.find("block_assessment: a case with a `sweep` or an `ensemble` has no study of one case"),
+            std::string::npos)
+      << run.err;
+}
+
 // A member that STRICT=1 refuses has no verdict any more, nor the one of the call before.
 TEST(Rules, AMemberThatFailsLosesItsVerdict) {
   const EditedFolder folder;

@@ -198,8 +198,8 @@ const BadCase kBadCases[] = {
      "bad.yaml:6:31: error: postproc.meridians[0].name = \"a?system('touch x')\": may contain only letters, "
      "digits, _ and -"},
     {"NotAMap", "- a\n- b\n", "bad.yaml:1:1: error: a case file is a map of sections, `key: value`"},
-    {"Empty", "", "bad.yaml: error: the file is empty"},
-    {"OnlyComment", "# nothing\n", "bad.yaml: error: the file is empty"},
+    {"Empty", "", "bad.yaml: error: is empty"},
+    {"OnlyComment", "# nothing\n", "bad.yaml: error: is empty"},
     {"TwoDocuments", kGood + "---\ntitle: x\n",
      "bad.yaml:7:1: error: a second YAML document starts here; a case file holds only one"},
     {"Anchor", "title: &a x\n",
@@ -275,6 +275,15 @@ TEST(MissingFile, IsNamedInTheError) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()), "no/such/case.yaml: error: does not exist");
+  }
+}
+
+TEST(MissingFile, AFolderIsNamedAsOne) {
+  try {
+    read_case(".");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()), ".: error: is a folder: give the name of a file in it");
   }
 }
 
