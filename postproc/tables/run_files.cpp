@@ -60,6 +60,23 @@ std::string near_key(const UnorderedJson& root, const std::string& key) {
 
 struct RunFiles::Summaries {
   std::optional<UnorderedJson> results, post, answers;
+
+  const UnorderedJson& results_of(const std::string& folder) {
+    if (!results) results = read_json(folder + "/results/summary.json");
+    return *results;
+  }
+  /// Throws InputError if it evaluates other results than those beside it.
+  const UnorderedJson& post_of(const std::string& folder) {
+    if (post) return *post;
+    const std::string path = folder + "/post/summary.json";
+    UnorderedJson read = read_json(path);
+    for (const char* key : {"case_hash", "assembly_hash"})
+      if (read.contains(key) && std::filesystem::exists(folder + "/results/summary.json") &&
+          results_of(folder).value(key, read[key]) != read[key])
+        throw InputError(FileLocation{path},
+                         "is of another run than results/: run cupola-post analyse again");
+    return post.emplace(std::move(read));
+  }
 };
 
 RunFiles::RunFiles(std::string folder)
@@ -67,9 +84,8 @@ RunFiles::RunFiles(std::string folder)
 RunFiles::~RunFiles() = default;
 
 std::vector<std::string> RunFiles::warnings() {
-  if (!summaries_->post) summaries_->post = read_json(folder_ + "/post/summary.json");
   std::vector<std::string> texts;
-  if (const UnorderedJson* list = descend(*summaries_->post, "warnings"); list && list->is_array())
+  if (const UnorderedJson* list = descend(summaries_->post_of(folder_), "warnings"); list && list->is_array())
     for (const UnorderedJson& text : *list)
       if (text.is_string()) texts.push_back(text.get<std::string>());
   return texts;
@@ -77,8 +93,7 @@ std::vector<std::string> RunFiles::warnings() {
 
 std::string RunFiles::text_of_results(const std::string& key) {
   const std::string path = folder_ + "/results/summary.json";
-  if (!summaries_->results) summaries_->results = read_json(path);
-  const UnorderedJson* text = descend(*summaries_->results, key);
+  const UnorderedJson* text = descend(summaries_->results_of(folder_), key);
   if (!text || !text->is_string()) throw InputError(FileLocation{path}, fmt::format("has no `{}`", key));
   return text->get<std::string>();
 }
@@ -125,13 +140,12 @@ double RunFiles::number(const std::string& key) {
   if (!of_results && !key.starts_with("post."))
     throw InputError(fmt::format("key {}: must begin with `results.`, `post.` or `case.`", key));
   const std::string path = folder_ + (of_results ? "/results/" : "/post/") + "summary.json";
-  std::optional<UnorderedJson>& json = of_results ? summaries_->results : summaries_->post;
-  if (!json) json = read_json(path);
+  const UnorderedJson& json = of_results ? summaries_->results_of(folder_) : summaries_->post_of(folder_);
   const std::string inner = key.substr(key.find('.') + 1);
-  const UnorderedJson* value = descend(*json, inner);
+  const UnorderedJson* value = descend(json, inner);
   if (value && value->is_boolean()) return value->get<bool>() ? 1.0 : 0.0;
   if (!value || !value->is_number())
-    throw InputError(FileLocation{path}, fmt::format("has no number `{}`{}", inner, near_key(*json, inner)));
+    throw InputError(FileLocation{path}, fmt::format("has no number `{}`{}", inner, near_key(json, inner)));
   return value->get<double>();
 }
 

@@ -100,6 +100,21 @@ TEST(StudyTable, NamesTheKeyThatWasProbablyMeant) {
   }
 }
 
+// As after a new solution that was not evaluated: the thrust would be that of another model.
+TEST(StudyTable, RefusesAnEvaluationOfAnotherRun) {
+  const ScratchFolder scratch;
+  scratch.write("a/results/summary.json", R"({"status": "stable", "case_hash": "new"})");
+  scratch.write("a/post/summary.json", R"({"weight_N": 1, "case_hash": "old"})");
+  try {
+    shown(scratch, "    runs: a\n    columns:\n      - {heading: weight, key: post.weight_N}\n");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a/post/summary.json: error: is of another run than results/"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Study, RunsAreTheProductOfCasesAndValues) {
   const ScratchFolder scratch;
   const Study study = read_study(scratch.write(
