@@ -48,11 +48,24 @@ double friction_use(const ContactTable& contacts, std::vector<int>::const_iterat
   return shear.norm() / (known > 0.0 ? limit * weights / known : limit);
 }
 
+/// Share of the area of the joint whose points carry no normal force.
+double open_share(const ContactTable& contacts, const std::vector<int>& rows, const Floor& floor,
+                  const JointWrench& joint) {
+  constexpr double kNoPressure = 1e-9;  // of the force; rounding beside the shear of a cohesive joint
+  double open_area = 0.0;
+  for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
+    const int row = rows[i];
+    if (std::abs(contacts.normal_force[row]) <=
+        std::max(floor.force, kNoPressure * contacts.force[row].norm()))
+      open_area += contacts.area[row];
+  }
+  return joint.area > 0.0 ? open_area / joint.area : 0.0;
+}
+
 /// Sums the forces of the joint over its contact points, `rows` of the contacts.
 void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
   const auto begin = rows.begin() + joint->contact_start;
   const auto end = begin + joint->num_contacts;
-  constexpr double kNoPressure = 1e-9;  // of the force; rounding beside the shear of a cohesive joint
   CUPOLA_ASSERT(begin < end && joint->block_a < joint->block_b);
   std::vector<Vec3> points;
   Vec3 normal = Vec3::Zero();
@@ -64,14 +77,13 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->patch = planar_hull(points, normal.normalized());
 
   Vec3 weighted = Vec3::Zero();
-  double open_area = 0.0, damaged_area = 0.0;
+  double damaged_area = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row];
     joint->normal_force += n;
     weighted += n * (contacts.point[*row] - joint->patch.centroid);
     joint->area += contacts.area[*row];
     joint->centroid += contacts.area[*row] * contacts.point[*row];
-    if (std::abs(n) <= kNoPressure * contacts.force[*row].norm()) open_area += contacts.area[*row];
     if (contacts.area[*row] > 0.0)
       joint->largest_pressure = std::max(joint->largest_pressure, n / contacts.area[*row]);
     if (!contacts.strength_use.empty())
@@ -84,7 +96,6 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   joint->centre_of_pressure = joint->patch.centroid;
   if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
   joint->friction_use = friction_use(contacts, begin, end);
-  if (joint->area > 0.0) joint->open_share = open_area / joint->area;
   if (joint->area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / joint->area;
   joint->wrench.point = joint->centre_of_pressure;
   for (auto row = begin; row != end; ++row)
@@ -138,6 +149,7 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
   }
   out.floor = floor_of(largest, unbalanced, block_size(assembly));
   for (JointWrench& joint : out.wrenches) {
+    joint.open_share = open_share(contacts, out.contacts, out.floor, joint);
     measure(out.floor, &joint);
     if (joint.kind != JointKind::bed && joint.kind != JointKind::base) continue;
     joint.upper = joint.block_b;

@@ -51,5 +51,16 @@ TEST(FrictionUse, IsOneWhereAllPointsSlide) {
   EXPECT_NEAR(use_of(normal, shear, cohesion), 1.0, 1e-12);
 }
 
+// A limit leaves rounding in the open points of a hinge, here beside 2 x 100 N: half of the bed is open.
+TEST(OpenShare, CountsPointsUpToTheFloorAsOpen) {
+  const Assembly a = test::column(1);
+  ContactTable c = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4).contacts;
+  for (size_t i = 0; i < 4; ++i) {
+    c.normal_force[i] = i < 2 ? 100.0 : 3.5e-14;
+    c.force[i] = Vec3(0, 0, c.normal_force[i]);
+  }
+  EXPECT_NEAR(joint_wrenches(a, c, shell_of(a, Vec3::UnitZ())).wrenches[0].open_share, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace cupola::friction_use_test
