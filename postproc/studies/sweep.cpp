@@ -45,6 +45,17 @@ std::string failures(const Table& table, const std::string& noun) {
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), noun));
 }
 
+std::vector<size_t> fallen_rows(const Table& table) {
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  const size_t critical = table.column_named("critical_value");
+  std::vector<size_t> rows;
+  for (size_t r = 0; r < statuses.size(); ++r) {
+    const double* value = std::get_if<double>(&table.rows[r][critical]);
+    if (falls(statuses[r]) && !(value && std::isfinite(*value))) rows.push_back(r);
+  }
+  return rows;
+}
+
 namespace {
 
 /// The number of the row with the least value in a column, or the greatest; none without numbers.
@@ -73,19 +84,6 @@ std::string critical_at(const std::vector<std::string>& keys, const Table& table
   const std::string& unit = table.columns[critical].unit;
   return fmt::format("{:.4g}{} at {}", std::get<double>(table.rows[row][critical]),
                      unit.empty() || unit == "factor" ? "" : " " + unit, settings_of(keys, table, row));
-}
-
-/// Rows whose structure falls whatever the value sought. A construction that falls with the mortar of its
-/// case may have a least mortar.
-std::vector<size_t> fallen_rows(const Table& table) {
-  const std::vector<std::string> statuses = texts_of(table, "status");
-  const size_t critical = table.column_named("critical_value");
-  std::vector<size_t> rows;
-  for (size_t r = 0; r < statuses.size(); ++r) {
-    const double* value = std::get_if<double>(&table.rows[r][critical]);
-    if (falls(statuses[r]) && !(value && std::isfinite(*value))) rows.push_back(r);
-  }
-  return rows;
 }
 
 /// Rows of limits whose structure stands without a critical value.
@@ -181,8 +179,8 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table, const
         (stop == std::string::npos ? "" : governs.substr(stop + 2) + " ") + ended + " " + runs + ".",
         fallen_rows(table).empty());
   }
-  if (where.empty()) return verdict_html(ended, runs + ".", true);
   const bool all = standing == static_cast<std::ptrdiff_t>(table.rows.size());
+  if (where.empty()) return verdict_html(ended, runs + ".", all);
   return verdict_html(fmt::format("It stands in {} of {}", standing, runs), where, all);
 }
 

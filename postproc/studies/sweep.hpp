@@ -18,6 +18,9 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
 std::string endings(const Table& sweep_table);
 /// "2 of 8 runs" that have no results or did not reach their accuracy; "" for none.
 std::string failures(const Table& sweep_table, const std::string& noun = "run");
+/// Rows whose structure falls whatever the value sought. A construction that falls with the mortar of its
+/// case may have a least mortar.
+std::vector<size_t> fallen_rows(const Table& sweep_table);
 /// Columns of numbers that differ by more than rounding between the members of one of the tables; errors and
 /// times are no results.
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);

@@ -295,6 +295,15 @@ TEST(EnsemblePage, MembersWithoutACriticalValueCountInItsQuantiles) {
   }
 }
 
+TEST(EnsemblePage, IsRedWhereAllFall) {
+  const ScratchFolder scratch;
+  StudyPage page("One", scratch.file("page"));
+  add_ensembles({two_ensembles(scratch, 0.0, 8).back()}, scratch.folder(), &page);
+  page.write();
+  EXPECT_NE(read_text(scratch.file("page/study.html")).find("<p class=\"verdict bad\"><strong>b: 8 of 8 "),
+            std::string::npos);
+}
+
 TEST(EnsemblePage, ADifferenceWithinItsIntervalIsTheHeadline) {
   const ScratchFolder scratch;
   StudyPage page("Two", scratch.file("page"));

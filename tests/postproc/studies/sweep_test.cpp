@@ -93,6 +93,27 @@ TEST(SweepTable, HasTheResultsOfTheMembers) {
   EXPECT_NE(latex.find("dome\\_friction0.1 & 0.1 & stable"), std::string::npos) << latex;
 }
 
+// Of two keys, where there is no sentence about where it stands.
+TEST(SweepTable, IsRedWhereMembersFall) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.2"}}, {"loads.gravity[0]", {"1"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "block"))
+    members.push_back({member.name, "block", member.settings});
+  scratch.write(members[0].name + "/results/summary.json", R"({"status": "moving"})");
+  for (const bool one : {true, false}) {
+    scratch.write(members[1].name + "/results/summary.json",
+                  one ? R"({"status": "stable"})" : R"({"status": "moving"})");
+    StudyPage page("Sweep", scratch.file("page"));
+    add_sweep(sweep, members, scratch.folder(), &page);
+    page.write();
+    const std::string html = read_text(scratch.file("page/study.html"));
+    EXPECT_NE(html.find(fmt::format("<p class=\"verdict bad\"><strong>{}.</strong>",
+                                    one ? "1 stable, 1 moving" : "2 moving")),
+              std::string::npos);
+  }
+}
+
 // An axle at three places: the least factor governs, and the page begins with it. Of frictions the greatest
 // does, by the least margin.
 TEST(SweepTable, BeginsWithTheMemberThatGoverns) {
