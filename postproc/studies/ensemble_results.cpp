@@ -16,6 +16,7 @@
 namespace cupola {
 namespace {
 
+constexpr const char* kNotShown = "No difference shown. ";
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> column_of_numbers(const Table& table, size_t column) {
@@ -53,9 +54,8 @@ std::string difference_sentence(const std::string& pair, const std::string& what
   if (!d.interval) return fmt::format("{}: {} differs by {} in the mean.", pair, what, short_number(d.value));
   const std::string numbers = fmt::format("{} ({} to {})", short_number(d.value),
                                           short_number(d.interval->low), short_number(d.interval->high));
-  return d.interval->contains(0.0)
-             ? fmt::format("No difference shown. {}: {} differs by {}.", pair, what, numbers)
-             : fmt::format("{}: {} differs by {}.", pair, what, numbers);
+  return d.interval->contains(0.0) ? fmt::format("{}{}: {} differs by {}.", kNotShown, pair, what, numbers)
+                                   : fmt::format("{}: {} differs by {}.", pair, what, numbers);
 }
 
 /// Whether one of them is more sensitive; "" where the members do not tell.
@@ -65,6 +65,42 @@ std::string scatter_sentence(const IntervalEstimate& ratio) {
                      ratio.interval->contains(1.0) ? "No difference of scatter shown: r" : "R",
                      short_number(ratio.value), short_number(ratio.interval->low),
                      short_number(ratio.interval->high));
+}
+
+/// The mean difference of a result. There is none where a member falls, or stands, throughout its bracket: the
+/// mean of the other pairs would leave out the largest differences.
+void add_difference(const EnsembleResults& a, const EnsembleResults& b, size_t column, Table* table,
+                    std::vector<std::string>* sentences) {
+  const std::string pair = a.name + " less " + b.name, &key = a.members.columns[column].key;
+  DrawnValues difference = a.values(column);
+  const DrawnValues other = b.values(column);
+  int pairs = 0, infinite = 0;
+  double first = 0.0, second = 0.0;
+  for (size_t i = 0; i < difference.values.size(); ++i) {
+    const double value = difference.values[i], size = std::abs(value) + std::abs(other.values[i]);
+    infinite += std::isinf(size);
+    difference.values[i] = std::isfinite(size) ? value - other.values[i] : kNone;
+    if (!std::isfinite(size)) continue;
+    ++pairs;
+    first += value;
+    second += other.values[i];
+  }
+  if (infinite > 0) {
+    table->rows.push_back({pair, key, pairs});
+    table->rows.back().resize(table->columns.size(), kNone);
+    sentences->push_back(fmt::format(
+        "{}: {} has no mean difference: in {} of {} a member falls, or stands, throughout its bracket.", pair,
+        key, infinite, counted(pairs + infinite, "pair")));
+  }
+  if (infinite > 0 || pairs == 0) return;
+  const IntervalEstimate mean = mean_of(difference);
+  std::vector<Table::Cell> row = {pair, key, pairs, first / pairs, second / pairs};
+  const IntervalEstimate scatter = scatter_ratio(a.values(column), b.values(column));
+  add_estimate(mean, &row);
+  add_estimate(scatter, &row);
+  row.emplace_back(kNone);
+  table->rows.push_back(std::move(row));
+  sentences->push_back(difference_sentence(pair, key, mean) + scatter_sentence(scatter));
 }
 
 /// Rows for one pair of ensembles of the same samples.
@@ -89,36 +125,9 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     sentences->push_back(fmt::format(
         "{}{} and {}: of {} with a verdict in both, {} fall in the first only and {} in the second only "
         "(exact McNemar test: p = {:.2g}).",
-        p > 0.05 ? "No difference shown. " : "", a.name, b.name, counted(both, "member"), only_a, only_b, p));
+        p > 0.05 ? kNotShown : "", a.name, b.name, counted(both, "member"), only_a, only_b, p));
   }
-  for (const size_t column : a.results) {
-    DrawnValues difference = a.values(column);
-    const DrawnValues other = b.values(column);
-    int pairs = 0;
-    double first = 0.0, second = 0.0;
-    for (size_t i = 0; i < difference.values.size(); ++i) {
-      const double value = difference.values[i];
-      difference.values[i] -= other.values[i];
-      if (!std::isfinite(difference.values[i])) {
-        difference.values[i] = kNone;
-        continue;
-      }
-      ++pairs;
-      first += value;
-      second += other.values[i];
-    }
-    if (pairs == 0) continue;
-    const IntervalEstimate mean = mean_of(difference);
-    std::vector<Table::Cell> row = {pair, a.members.columns[column].key, pairs, first / pairs,
-                                    second / pairs};
-    const IntervalEstimate scatter = scatter_ratio(a.values(column), b.values(column));
-    add_estimate(mean, &row);
-    add_estimate(scatter, &row);
-    row.emplace_back(kNone);
-    table->rows.push_back(std::move(row));
-    sentences->push_back(difference_sentence(pair, a.members.columns[column].key, mean) +
-                         scatter_sentence(scatter));
-  }
+  for (const size_t column : a.results) add_difference(a, b, column, table, sentences);
 }
 
 /// How far the members of a limit analysis stand.
@@ -341,6 +350,8 @@ Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vect
     for (size_t b = a + 1; b < ensembles.size(); ++b)
       if (ensembles[a].runs->samples == ensembles[b].runs->samples)
         add_pair(ensembles[a], ensembles[b], &t, sentences);
+  std::stable_partition(sentences->begin(), sentences->end(),
+                        [](const std::string& s) { return !s.starts_with(kNotShown); });
   return t;
 }
 

@@ -57,7 +57,7 @@ Table inputs_table(const EnsembleResults& ensemble);
 Table ends_table(const EnsembleResults& ensemble);
 
 /// Rows for the collapse and every result of two ensembles of the same samples: first less second, member by
-/// member. `sentences` gets a sentence per row.
+/// member. `sentences` gets a sentence per row, first those of differences that are shown.
 Table differences_table(const std::vector<EnsembleResults>& ensembles, std::vector<std::string>* sentences);
 
 }  // namespace cupola

@@ -295,6 +295,32 @@ TEST(EnsemblePage, MembersWithoutACriticalValueCountInItsQuantiles) {
   }
 }
 
+TEST(EnsemblePage, HasNoMeanDifferenceWhereAValueIsInfinite) {
+  const ScratchFolder scratch;
+  const std::vector<SampledRuns> ensembles = two_ensembles(scratch, 0.0, 2);
+  for (const SampledRuns& ensemble : ensembles)
+    for (size_t i = ensemble.name == "b" ? 2 : 0; i < 8; ++i)
+      scratch.write(
+          ensemble.runs[i].name + "/results/summary.json",
+          fmt::format(R"({{"status": "stable", "critical_value": {}}})", (ensemble.name == "b" ? 2 : 1) + i));
+  StudyPage page("Two", scratch.file("page"));
+  const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
+  const std::string said =
+      "a less b: critical_value has no mean difference: in 2 of 8 pairs a member falls, or stands, "
+      "throughout its bracket.";
+  EXPECT_EQ(text.find(said), 0u) << text;
+  EXPECT_NE(read_text(scratch.file("page/differences.csv")).find("a less b,critical_value,6,,,,,,,,,"),
+            std::string::npos);
+}
+
+TEST(EnsemblePage, ADifferenceShownComesBeforeOneThatIsNot) {
+  const ScratchFolder scratch;
+  StudyPage page("Two", scratch.file("page"));
+  const std::string text = add_ensembles(two_ensembles(scratch, 0.0, 1), scratch.folder(), &page);
+  EXPECT_EQ(text.find("a less b: widest_crack_m differs by -0.01 (-0.01 to -0.01)."), 0u) << text;
+  EXPECT_NE(text.find("No difference shown. a and b: of 8"), std::string::npos) << text;
+}
+
 TEST(EnsemblePage, IsRedWhereAllFall) {
   const ScratchFolder scratch;
   StudyPage page("One", scratch.file("page"));
