@@ -66,7 +66,8 @@ const Columns<RingRow>& ring_columns() {
   using R = RingRow;
   static const Columns<R> columns{
       {"ring", "", "the cut runs below this ring", [](const R& r) { return r.cut.ring; }},
-      {"height_m", "m", "mean height of the ring's bed joints", [](const R& r) { return r.cut.height; }},
+      {"height_m", "m", "mean height of the ring's bed joints, of its bed where it has none",
+       [](const R& r) { return r.cut.height; }},
       {"blocks", "", "blocks that begin in the ring", [](const R& r) { return r.cut.blocks; }},
       {"joint_force_{}_N", "N", "sum of the joint forces on the blocks above the cut",
        [](const R& r) { return r.cut.joint_force; }},
