@@ -18,6 +18,13 @@
 #include "solver/dynamics/state_archive.hpp"
 
 namespace cupola {
+namespace {
+
+double displacement_of(const StaticSolution& solution) {
+  return largest_speed(solution.step_solution.v) * solution.h;
+}
+
+}  // namespace
 
 EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& detection,
                                  const StaticOptions& options, PathGeometry geometry)
@@ -74,6 +81,20 @@ StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
   return advance_from(loaded_.state.time);
 }
 
+/// What a solve that balances the loads but for its residual leaves undetermined of the displacement, m.
+double EquilibriumPath::displacement_by_imbalance(const StaticSolution& solution) const {
+  constexpr double kMargin = 3.0;  // the residual is over the mean weight, in forces and in moments
+  return kMargin * solution.balance.residual * reference_acceleration(model_, start_) * solution.h *
+         solution.h;
+}
+
+bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
+  constexpr double kSettled = 1e-8, kNegligible = 1e-5;  // of the smallest block
+  const double moved = displacement_of(solution) / smallest_block_size(*model_.assembly);
+  return moved <= kSettled ||
+         (moved <= kNegligible && displacement_of(solution) <= displacement_by_imbalance(solution));
+}
+
 /// The scene of the next static solve: contacts at `from` and what the joints remember.
 void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
   start_ = from.state;
@@ -115,10 +136,6 @@ namespace {
 /// far off that nothing balances the loads there.
 constexpr double kLongStep = 0.01;
 
-double displacement_of(const StaticSolution& solution) {
-  return largest_speed(solution.step_solution.v) * solution.h;
-}
-
 }  // namespace
 
 StaticSolution EquilibriumPath::advance_from(double guess) {
@@ -141,16 +158,15 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
 }
 
 StaticSolution EquilibriumPath::correct(StaticSolution solution) {
-  constexpr double kSettled = 1e-8;  // of the smallest block
-  constexpr int kMost = 200;         // of a slender tower that sways each takes away a tenth
-  const double tolerance = kSettled * smallest_block_size(*model_.assembly),
-               by_step = displacement_of(solution);
-  for (int pass = 0; displacement_of(solution) > tolerance; ++pass) {
-    if (pass == kMost || (pass > 0 && displacement_of(solution) > by_step)) {
+  constexpr int kMost = 200;  // of a slender tower that sways each takes away a tenth
+  const double by_step = std::max(displacement_of(solution), imposed_displacement(model_, start_, options_));
+  for (int pass = 0; !is_settled(solution); ++pass) {
+    const double further = displacement_of(solution);
+    if (pass == kMost || (pass > 0 && further > std::max(by_step, displacement_by_imbalance(solution)))) {
       solution.outcome = pass == kMost ? StaticOutcome::unconverged : StaticOutcome::moving;
       solution.proven = false;
-      solution.message = fmt::format("in the geometry at the end of the step blocks move on by {:.2g} m",
-                                     displacement_of(solution));
+      solution.message =
+          fmt::format("in the geometry at the end of the step blocks move on by {:.2g} m", further);
       break;
     }
     const int iterations = solution.iterations;

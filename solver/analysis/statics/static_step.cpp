@@ -9,16 +9,6 @@
 namespace cupola {
 namespace {
 
-/// Largest displacement of a support in the step, m.
-double imposed_displacement(const Model& model, const State& start, const StaticOptions& options) {
-  std::vector<Pose> moved = start.poses;
-  place_supports(*model.assembly, model.support_motions, start.time + options.time_advance, &moved);
-  double largest = 0.0;
-  for (size_t i = 0; i < moved.size(); ++i)
-    largest = std::max(largest, (moved[i].p_WB - start.poses[i].p_WB).norm());
-  return largest;
-}
-
 double largest_compliance(const Model& model, const State& start, const ContactSet& contacts) {
   double compliance = 0.0;
   for (const Contact& contact : contacts.points)
@@ -27,6 +17,15 @@ double largest_compliance(const Model& model, const State& start, const ContactS
 }
 
 }  // namespace
+
+double imposed_displacement(const Model& model, const State& start, const StaticOptions& options) {
+  std::vector<Pose> moved = start.poses;
+  place_supports(*model.assembly, model.support_motions, start.time + options.time_advance, &moved);
+  double largest = 0.0;
+  for (size_t i = 0; i < moved.size(); ++i)
+    largest = std::max(largest, (moved[i].p_WB - start.poses[i].p_WB).norm());
+  return largest;
+}
 
 StepOptions static_step_options(const StaticOptions& options, double h) {
   StepOptions step;

@@ -8,6 +8,9 @@ namespace cupola {
 /// the problem does not depend on h.
 StepOptions static_step_options(const StaticOptions& options, double h);
 
+/// Largest displacement of a support in the step, m.
+double imposed_displacement(const Model& model, const State& start, const StaticOptions& options);
+
 /// First guess of h, s: one iteration should reduce the equilibrium residual to about a thousandth. A
 /// displacement d reached in one step causes the inertia force m d / h^2, so that h^2 >= d / (g 1e-3). The
 /// displacement is estimated from the load, the compliance, the gaps and the number of courses.
