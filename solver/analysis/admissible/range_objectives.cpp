@@ -39,6 +39,9 @@ class Objectives {
   /// Force of the blocks on their supports along a direction that depends on the joint.
   template <class Direction>
   ForceFunctional on_supports(const std::set<int>& blocks, const Direction& direction) const;
+  /// Adds the forces along `direction` on supports of ties that lead from them to free blocks, at either end
+  /// of which is `block`. Restraints are forces of the ground.
+  void add_anchored(int block, const Vec3& direction, ForceFunctional* f) const;
   ForceFunctional weight_of(const std::set<int>& blocks, double factor) const;
   /// Ties without those of the restraints, which follow them: a tie and a strut each.
   int num_ties() const { return static_cast<int>(scene_.model.ties.size()) - 2 * num_restraints(); }
@@ -87,6 +90,17 @@ ForceFunctional Objectives::on_supports(const std::set<int>& blocks, const Direc
   return f;
 }
 
+void Objectives::add_anchored(int block, const Vec3& direction, ForceFunctional* f) const {
+  const State rest = state_at_rest(scene_.model);
+  for (size_t k = 0; k < scene_.model.ties.size(); ++k) {
+    const Tie& tie = scene_.model.ties[k];
+    if (tie.is_restraint() || scene_.fixed(tie.block_a) == scene_.fixed(tie.block_b)) continue;
+    if (tie.block_a != block && tie.block_b != block) continue;
+    const double on_b = direction.dot(tie_geometry(tie, rest.poses, rest.ground).normal);
+    f->ties[k] += scene_.fixed(tie.block_b) ? on_b : -on_b;
+  }
+}
+
 ForceFunctional Objectives::weight_of(const std::set<int>& blocks, double factor) const {
   return on_supports(blocks, [factor](const Vec3&, int) { return Vec3(factor * kDown); });
 }
@@ -125,10 +139,13 @@ std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction
     return vertical ? kDown : scene_.joints.outward(point, block);
   };
   if (!scene_.fixed(reaction.block)) base_blocks({BaseBlocks::Group::listed, {reaction.block}});
+  ForceFunctional f = on_supports({reaction.block}, direction);
+  // Outward counts joints alone, as reactions.csv does.
+  if (reaction.direction || vertical) add_anchored(reaction.block, reaction.direction.value_or(kDown), &f);
   const std::string name = fmt::format(
       "{}reaction of block {}{}", reaction.direction ? "" : fmt::format("{} ", to_string(reaction.component)),
       scene_.label(reaction.block), along_text(reaction.direction));
-  return {{name, "N", on_supports({reaction.block}, direction), {}}};
+  return {{name, "N", std::move(f), {}}};
 }
 
 std::vector<RangeObjective> Objectives::operator()(const BaseShare& share) const {

@@ -343,4 +343,29 @@ TEST(Range, OfARodIsThatOfItsTieLessItsStrut) {
 }
 
 }  // namespace
+// An inclined tie with a slope of 3/4 pulls a box aside: S in it presses the box down by 0.6 S on the floor,
+// which rubs against 0.8 S, and the anchor bears S alone. 0.8 S <= 0.3 (W + 0.6 S): S <= 0.3 W / 0.62.
+TEST(Range, OfASupportCountsTheTiesAnchoredInIt) {
+  const Assembly box =
+      testing::make_boxes({{.center = {0, 0, -0.5}, .size = {9, 9, 1}, .fixed = true},
+                           {.center = {0, 0, 0.1}, .size = {1, 1, 0.2}},
+                           {.center = {4.1, 0, -2.9}, .size = {0.2, 0.2, 0.2}, .fixed = true}});
+  const double weight = box.blocks[1].mass * testing::kG, most = 0.3 * weight / 0.62;
+  PairTie tie;
+  tie.block_a = 1;
+  tie.block_b = 2;
+  tie.point_a = Vec3(0, 0, 0.1);
+  tie.point_b = Vec3(4, 0, -2.9);
+  tie.stiffness = 1e8;
+  Case scene = range_case(0.3, {BlockReaction{2, BlockReaction::Component::vertical, {}},
+                                BlockReaction{2, BlockReaction::Component::vertical, Vec3::UnitX()},
+                                BlockReaction{1, BlockReaction::Component::vertical, {}}});
+  scene.ties.pairs.push_back(tie);
+  const Summary summary = ranges_of(scene, box);
+  ASSERT_EQ(summary.ranges.size(), 3u) << summary.message;
+  expect_ends(summary.ranges[0], -0.6 * most, 0.0, weight);
+  expect_ends(summary.ranges[1], -0.8 * most, 0.0, weight);
+  expect_ends(summary.ranges[2], weight, weight, weight);
+}
+
 }  // namespace cupola::range_test
