@@ -213,6 +213,7 @@ Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_wi
     if (trial.outcome == StaticOutcome::equilibrium) {
       bracket.stable = trial;
       if (next >= high) {
+        bracket.at_both_ends = StaticOutcome::equilibrium;
         bracket.message =
             fmt::format("the structure stands up to the end of the bracket, {:g}; widen the bracket", high);
         return bracket;

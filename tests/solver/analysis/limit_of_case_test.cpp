@@ -40,6 +40,16 @@ TEST(LimitOfCase, StandsWhereBothEndsDo) {
   expect(pushed(limit_case(Parameter::load, 0.0, 2.0, 0.3)), block(), Status::stable, "no limit from 0 to 2");
 }
 
+// A floor moves by 2 m, and the block on it too.
+TEST(LimitOfCase, StandsWhereASpreadDoesThroughout) {
+  Case scene = limit_case(Parameter::spread, 0.0, 2.0, 0.3);
+  SupportMove move;
+  move.region.blocks = {0};
+  move.displacement = Vec3(1, 0, 0);
+  scene.supports.moves = {move};
+  expect(scene, block(), Status::stable, "the structure stands up to the end of the bracket, 2; widen");
+}
+
 // The loads are not linear in the angle where a force stays as it is: in between it could move.
 TEST(LimitOfCase, ATiltBesideAForceIsNoInterval) {
   expect(pushed(limit_case(Parameter::tilt, 0.0, 1.0, 0.3)), block(), Status::stable,
