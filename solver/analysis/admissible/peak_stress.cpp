@@ -22,6 +22,15 @@ ConicProblem stress_problem(const RigidScene& rigid) {
   return problem;
 }
 
+/// Of all loads over all joints, Pa: what a stress of zero is small against.
+double stress_of_loads(const RigidScene& rigid) {
+  double loads = 0.0, area = 0.0;
+  for (Eigen::Index i = 0; i < rigid.problem.load.size(); i += 6)
+    loads += rigid.problem.load.segment<3>(i).norm();
+  for (const Contact& point : rigid.contacts.points) area += point.area;
+  return loads / area;
+}
+
 }  // namespace
 
 DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report) {
@@ -43,8 +52,9 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
   const ConicBounds bounds = conic_bounds(problem, solution);
   report({bounds.upper, true, {}, solution.iterations});
   limit.found = true;
-  limit.admissible = bounds.upper;
-  limit.moving = std::min(bounds.lower, bounds.upper);
+  limit.admissible = std::max(0.0, bounds.upper);
+  limit.moving = std::clamp(bounds.lower, 0.0, limit.admissible);  // no stress is less than none
+  limit.span = stress_of_loads(rigid);
   limit.gamma = solution.gamma;
   limit.at_admissible = std::move(rigid);
   return limit;
