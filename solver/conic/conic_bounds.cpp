@@ -64,7 +64,7 @@ double least_value(const ConicProblem& problem, const ConicSolution& x, double l
 }
 
 double largest_normal_force(const VecX& gamma) {
-  return std::max(0.0, gamma(Eigen::seq(0, Eigen::last, 3)).maxCoeff());
+  return gamma(Eigen::seq(0, Eigen::last, 3)).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& x) {
     const Vec3 gamma = x.gamma.segment<3>(3 * i);
     ContactLaw law = contact_law(p, i);
     law.strength = strength_at(problem, i, x.multipliers);
-    largest_force = std::max(largest_force, gamma[0]);
+    largest_force = std::max(largest_force, std::abs(gamma[0]));
     outside = std::max(outside, limit_excess(law, gamma));
   }
   if (largest_force > 0.0) bounds.cone_violation = outside / largest_force;

@@ -47,8 +47,9 @@ using ReportTrial = std::function<void(const DirectTrial&)>;
 
 /// Critical value of a parameter on which the loads depend smoothly. Each iteration maximises (or minimises)
 /// the multiplier t of the loads w(x) + t w'(x), linear in x, and moves x by t: one solve where the loads are
-/// linear in the parameter, a few for a tilt. `low` and `high`: an admissible state exists at one of them. If
-/// one exists at both, and the loads that grow away from zero have one by themselves, there is no limit.
+/// linear in the parameter, a few for a tilt, after halving the bracket where they have no such multiplier.
+/// `low` and `high`: an admissible state exists at one of them. If one exists at both, and loads that are
+/// linear and grow away from zero have one by themselves, there is no limit.
 /// `in_unit`: from the values of the search to those of messages.
 DirectLimit limit_of_loads(
     const SceneAt& scene_at, double low, double high, double relative_width, const ReportTrial& report,
@@ -57,7 +58,8 @@ DirectLimit limit_of_loads(
 /// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need
 /// (pull_solve.hpp). Friction and extent of the joints, on which the conditions depend linearly: Newton's
 /// method with the derivative that the mechanism gives, on rough solves, until its next step would not leave
-/// the width required; then a solve on either side of the root; friction counts from 1e-5, with cohesion 1e-3.
+/// the width required; then a solve on either side of the root, or, where joints bear tension, of which more
+/// friction leaves less, at both ends; friction counts from 1e-5, with cohesion 1e-3.
 /// Thickness: the secant method. A bracket that always contains the root safeguards both.
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
                             LimitSearch::Parameter parameter, const ReportTrial& report);

@@ -117,6 +117,37 @@ Ends first_ends(double low, double high, double relative_width, LimitSearch::Par
                      relative_width, trials);
 }
 
+/// Tension ends at cohesion over friction, and the shear beside it falls with friction.
+bool bears_tension(const ContactProblem& joints) {
+  return std::ranges::any_of(joints.strength, [](const ContactStrength& s) { return s.tension > 0.0; });
+}
+
+/// The structure stands, or moves, at both ends. `more_bears_more`: what the joints bear grows with the
+/// parameter.
+DirectLimit without_limit(Ends ends, double low, double high, LimitSearch::Parameter parameter,
+                          bool more_bears_more, const DirectLimit& counts) {
+  DirectLimit limit = not_found(counts, at_both_ends(ends.below.admissible(), low, high));
+  const bool needs_none =
+      parameter == LimitSearch::Parameter::friction && low == kNoFriction && ends.below.admissible();
+  if (needs_none)
+    limit.message =
+        fmt::format("no limit: the structure stands with a friction of {:g}, as good as none", kNoFriction);
+  // Joints with less friction or of less extent bear no force that the others do not.
+  const bool end_solved = ends.below.admissible() ? ends.below.value <= low : ends.above.value >= high;
+  if (parameter != LimitSearch::Parameter::thickness && more_bears_more && !needs_none && end_solved)
+    limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
+                                ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
+                                ends.below.admissible() ? "stands" : "moves", low, high);
+  if (ends.below.admissible()) {
+    limit.gamma = admissible_state(ends.below);
+    limit.at_admissible = std::move(ends.below.scene);
+  } else {
+    limit.mechanism = ends.below.solution.v;
+    limit.at_moving = std::move(ends.below.scene);
+  }
+  return limit;
+}
+
 }  // namespace
 
 DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, double relative_width,
@@ -141,29 +172,13 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
     low = floor *= 2.0;
     ends = first_ends(low, high, relative_width, parameter, &trials);
   }
+  const bool more_bears_more = !friction || !bears_tension(trials.joints_at(high));
+  if (!more_bears_more && ends.below.admissible() == ends.above.admissible())
+    ends = {trials.solve(low), trials.solve(high)};
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})
     if (!end.decided) return not_found(trials.counts(), unsolved_end(end.value));
-  if (ends.below.admissible() == ends.above.admissible()) {
-    DirectLimit limit = not_found(trials.counts(), at_both_ends(ends.below.admissible(), low, high));
-    const bool needs_none = friction && low == kNoFriction && ends.below.admissible();
-    if (needs_none)
-      limit.message =
-          fmt::format("no limit: the structure stands with a friction of {:g}, as good as none", kNoFriction);
-    // Joints with less friction or of less extent bear no force that the others do not.
-    const bool end_solved = ends.below.admissible() ? ends.below.value <= low : ends.above.value >= high;
-    if (parameter != LimitSearch::Parameter::thickness && !needs_none && end_solved)
-      limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
-                                  ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
-                                  ends.below.admissible() ? "stands" : "moves", low, high);
-    if (ends.below.admissible()) {
-      limit.gamma = admissible_state(ends.below);
-      limit.at_admissible = std::move(ends.below.scene);
-    } else {
-      limit.mechanism = ends.below.solution.v;
-      limit.at_moving = std::move(ends.below.scene);
-    }
-    return limit;
-  }
+  if (ends.below.admissible() == ends.above.admissible())
+    return without_limit(std::move(ends), low, high, parameter, more_bears_more, trials.counts());
   PullSearch search(std::move(ends.below), std::move(ends.above));
   while (trials.count < kMaxTrials) {
     const double enough = relative_width * std::abs(search.middle());

@@ -25,7 +25,7 @@ bool balances(const PullSolve& solve) {
 
 /// No state without a pull exists whose forces are up to a multiple of those found, if any were.
 bool proves_pull(const PullSolve& solve) {
-  return solve.solution.gamma(Eigen::seq(0, Eigen::last, 3)).maxCoeff() > 0.0 &&
+  return !solve.solution.gamma(Eigen::seq(0, Eigen::last, 3)).isZero(0.0) &&
          conic_bounds(solve.problem, solve.solution).lower > 0.0;
 }
 
