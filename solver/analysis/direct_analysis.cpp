@@ -39,10 +39,7 @@ double degrees(double tangent) {
 /// factor on all loads changes no limit of dry joints.
 DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, double width,
                           const ReportTrial& report) {
-  const auto tangent = [](double angle) {
-    constexpr double kSteepest = 89.0;  // degrees
-    return std::tan(std::clamp(angle, -kSteepest, kSteepest) * std::numbers::pi / 180.0);
-  };
+  const auto tangent = [](double angle) { return std::tan(angle * std::numbers::pi / 180.0); };
   const auto at_tangent = [&](double t) {
     RigidScene scene = scene_at(degrees(t));
     scene.problem.load *= std::hypot(1.0, t);
@@ -59,6 +56,15 @@ DirectLimit limit_of_tilt(const SceneAt& scene_at, double low, double high, doub
   limit.moving = degrees(limit.moving);
   limit.span = high - low;
   return limit;
+}
+
+/// True where that search applies: no strength is scaled, and no end is near the vertical, where the tangent
+/// ends.
+bool has_tangents_of_dry_joints(const Case& scene) {
+  constexpr double kSteepest = 89.0;  // degrees
+  const LimitSearch& limit = scene.analysis.limit;
+  return !scene.joints.have_strength() && !scene.ties_yield() &&
+         std::max(std::abs(limit.low), std::abs(limit.high)) <= kSteepest;
 }
 
 DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
@@ -83,7 +89,7 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   using Parameter = LimitSearch::Parameter;
   switch (limit.parameter) {
     case Parameter::tilt:
-      if (!scene.joints.have_strength() && !scene.ties_yield())
+      if (has_tangents_of_dry_joints(scene))
         return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
       [[fallthrough]];
     case Parameter::load:

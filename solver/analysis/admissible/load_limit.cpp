@@ -61,17 +61,18 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
       std::abs(low) > std::abs(high) ? -1.0 : 1.0;  // where the loads of the parameter grow
   const double end = towards > 0.0 ? high : low;
   const ConicSolution grown = solve_conic(largest_multiplier(scene_at, end, towards, &scene));
-  if (grown.outcome == ConicOutcome::unbounded) {
+  const bool linear = are_linear(scene_at, low, high);  // or what grows at this end says nothing of others
+  if (grown.outcome == ConicOutcome::unbounded && linear) {
     limit = not_found(std::move(limit),
                       fmt::format("no limit: the structure stands at {:g} and at every {} value, because the "
                                   "loads that grow with it have an admissible state by themselves",
                                   in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
   } else {
     limit = not_found(std::move(limit), at_both_ends(true, in_unit(low), in_unit(high)));
-    if (are_linear(scene_at, low, high))
+    if (linear)
       limit.message =
           fmt::format("no limit from {:g} to {:g}: {}", in_unit(low), in_unit(high), limit.message);
-    if (grown.outcome == ConicOutcome::optimal)
+    if (linear && grown.outcome == ConicOutcome::optimal)
       limit.message += fmt::format(" beyond about {:.4g}", in_unit(end + grown.multipliers[0]));
   }
   limit.gamma = solve_conic(scene.problem).gamma;
@@ -106,6 +107,32 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
   return limit;
 }
 
+/// Moves one end of a bracket to its middle, and returns it; none if the solve there did not decide.
+std::optional<double> halve(const SceneAt& scene_at, double* stands, double* moves, DirectLimit* limit,
+                            const ReportTrial& report) {
+  const double middle = 0.5 * (*stands + *moves);
+  const std::optional<bool> at_middle = has_state(scene_at, middle, limit, report);
+  if (!at_middle) return std::nullopt;
+  (*at_middle ? *stands : *moves) = middle;
+  return middle;
+}
+
+/// Adds the scenes at the two bounds, and whether the mechanism proves the motion.
+void complete(const SceneAt& scene_at, double towards, DirectLimit* limit) {
+  // At the bound itself the loads do no work on the mechanism.
+  constexpr double kBeyond = 1e-9;
+  for (double* end : {&limit->admissible, &limit->moving})
+    if (std::abs(*end) <= 1e-12 * limit->span) *end = 0.0;  // rounding
+  const double scale = std::max(std::abs(limit->moving), std::abs(limit->admissible));
+  const double proven = limit->moving + towards * kBeyond * (limit->is_zero() ? limit->span : scale);
+  if (limit->moving == limit->admissible) limit->moving = proven;  // which end moves must show
+  limit->at_admissible = scene_at(limit->admissible);
+  limit->at_moving = scene_at(limit->moving);
+  const RigidScene beyond = scene_at(proven);
+  limit->motion_proven =
+      MotionProof(beyond.problem.contacts, beyond.problem.load).next_to(limit->mechanism).has_value();
+}
+
 }  // namespace
 
 DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
@@ -118,8 +145,9 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   const double towards = *at_low ? 1.0 : -1.0;
-  double x = *at_low ? low : high;
-  for (int k = 0; k < kMaxIterations; ++k) {
+  double stands = *at_low ? low : high, moves = *at_low ? high : low;
+  double x = stands;
+  for (int k = 0; k < kMaxIterations && !limit.found; ++k) {
     const ConicProblem problem = largest_multiplier(scene_at, x, towards, &limit.at_admissible);
     ConicSolution solution = solve_conic(problem);
     ++limit.trials;
@@ -128,39 +156,30 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     const ConicBounds bounds =
         multiplier_bounds(problem, 0.1 * relative_width * std::abs(x + step), &solution);
     if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
-        !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower))
-      return not_found(std::move(limit), fmt::format("the linearised problem at {:.8g} is {}", in_unit(x),
-                                                     to_string(solution.outcome)));
+        !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower)) {
+      // Loads that are not linear may have a limit where they are no longer like those here.
+      const std::optional<double> middle = halve(scene_at, &stands, &moves, &limit, report);
+      if (!middle)
+        return not_found(std::move(limit), fmt::format("the linearised problem at {:.8g} is {}", in_unit(x),
+                                                       to_string(solution.outcome)));
+      x = *middle;
+      continue;
+    }
     limit.admissible = x - towards * bounds.upper;
     limit.moving = x - towards * bounds.lower;
     limit.gamma = solution.gamma;
     limit.mechanism = solution.v;
     report({limit.admissible, true, {}, solution.iterations});
-    const double next = std::clamp(x + step, low, high);
     // Done where the step is negligible, or exact because the loads are linear.
     const VecX missed = scene_at(x + step).problem.load - (problem.load + step * problem.load_columns);
     const bool exact = missed.norm() <= 1e-12 * problem.load.norm();
-    x = next;
-    if (exact || std::abs(step) <= 0.1 * relative_width * std::abs(x)) {
-      limit.found = true;
-      break;
-    }
+    x = std::clamp(x + step, std::min(stands, moves), std::max(stands, moves));
+    limit.found = exact || std::abs(step) <= 0.1 * relative_width * std::abs(x);
   }
   if (!limit.found)
     return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
-  // At the bound itself the loads do no work on the mechanism.
-  constexpr double kBeyond = 1e-9;
   limit.span = high - low;
-  for (double* end : {&limit.admissible, &limit.moving})
-    if (std::abs(*end) <= 1e-12 * limit.span) *end = 0.0;  // rounding
-  const double scale = std::max(std::abs(limit.moving), std::abs(limit.admissible));
-  const double proven = limit.moving + towards * kBeyond * (limit.is_zero() ? limit.span : scale);
-  if (limit.moving == limit.admissible) limit.moving = proven;  // which end moves must show
-  limit.at_admissible = scene_at(limit.admissible);
-  limit.at_moving = scene_at(limit.moving);
-  const RigidScene beyond = scene_at(proven);
-  limit.motion_proven =
-      MotionProof(beyond.problem.contacts, beyond.problem.load).next_to(limit.mechanism).has_value();
+  complete(scene_at, towards, &limit);
   return limit;
 }
 
