@@ -74,13 +74,17 @@ void expect_face_loads(const Section& s, const Case& the_case) {
 /// level one, as is the default, only says to which side, where gravity is a little inclined.
 void declare_pull_rule(Section& s, const Case& the_case) {
   using enum LimitSearch::Parameter;
+  constexpr double kInclined = 0.5;  // sine of 30 degrees
   const LimitSearch& limit = the_case.analysis.limit;
+  const Vec3& gravity = the_case.loads.gravity;
+  s.rule(the_case.analysis.robustness == 0 || gravity.head<2>().norm() <= kInclined * gravity.norm(),
+         "analysis.robustness",
+         "has horizontal directions: loads.gravity must be vertical, within 30 degrees");
   if (the_case.analysis.type != AnalysisType::limit ||
       (limit.parameter != tilt && limit.parameter != acceleration))
     return;
   constexpr double kRounding = 1e-3;  // of directions with four digits
-  constexpr double kInclined = 0.5;   // sine of 30 degrees
-  const double along_gravity = limit.direction.dot(the_case.loads.gravity.normalized());
+  const double along_gravity = limit.direction.dot(gravity.normalized());
   const double allowed = limit.direction.z() == 0.0 ? kInclined : kRounding;
   s.rule(limit.direction.norm() > 0.0 && std::abs(along_gravity) <= allowed * limit.direction.norm(),
          "analysis.limit.direction", "must be horizontal, at right angles to loads.gravity");
