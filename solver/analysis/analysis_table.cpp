@@ -138,6 +138,8 @@ double solves_of_limit(const Case& scene, const Assembly&) {
 
 std::string describe_limit(const Case& scene) {
   const LimitSearch& limit = scene.analysis.limit;
+  if (limit.parameter == LimitSearch::Parameter::peak_stress)
+    return "limit, direct: a conic programme over all admissible states";
   if (uses_direct_limit(scene.analysis))
     return fmt::format("limit, direct: conic programmes over all admissible states between {:g} and {:g}",
                        limit.low, limit.high);

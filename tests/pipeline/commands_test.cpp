@@ -320,6 +320,9 @@ TEST(Commands, ExplainTheModelWithoutSolvingIt) {
   EXPECT_TRUE(
       contains(limit, "limit, direct: conic programmes over all admissible states between 0.1 and 0.4"))
       << limit;
+  const std::string stress =
+      explained(" --set analysis.type=limit --set analysis.limit.parameter=peak_stress");
+  EXPECT_TRUE(contains(stress, "limit, direct: a conic programme over all admissible states\n")) << stress;
   EXPECT_EQ(folder.contents().size(), 2u) << "case and assembly";
 }
 
