@@ -32,10 +32,11 @@ std::vector<double> spring_energies(const StepProblem& step, const ContactMemori
   return energies;
 }
 
-/// J, of the viscous part of a row that carries a force and whose spring is stretched at the speed `rate`.
+/// J, of the viscous part of a row that carries a force and whose spring is stretched at the speed `rate` for
+/// all of the step.
 double damping_work(const StepProblem& step, Eigen::Index row, double rate, const StepOptions& options) {
   const double c = compliance(step, row, options);
-  return c > 0.0 ? options.damping * options.reach() * rate * rate / c : 0.0;
+  return c > 0.0 ? options.damping * options.h * rate * rate / c : 0.0;
 }
 
 /// J: negative of the work of gamma on the inelastic displacements reach z of one contact, friction and

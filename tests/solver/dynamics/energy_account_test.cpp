@@ -158,6 +158,15 @@ TEST(EnergyAccountTerms, OfADampedFallAreThoseOfItsDamperAndImpact) {
   }
 }
 
+// A weight W that is set on springs of 4 / c comes to rest lower by W c / 4: half of its work is stored, half
+// is that of the dampers, but for the error of implicit Euler, here 2.4 h w with w = 20 rad/s.
+TEST(EnergyAccountTerms, OfDampersAreHalfTheWorkOfASuddenWeight) {
+  const double c = 1e-5, h = 1e-3, weight = 1000.0 * kG, half = weight * weight * c / 8.0;
+  Motion motion{"", testing::box_on_floor({1.0, 1.0, 1.0}), make_case(0.5, c, h, 0.02), nullptr, 2000};
+  for (const Motion& m : {motion, second_order(motion)})
+    EXPECT_NEAR(follow(m).work.damping / half, 1.0, 0.06) << m.name;
+}
+
 TEST(EnergyAccountTerms, OfASlidingBlockUnderTheAssociatedLawReturnTheFrictionAsDilatancy) {
   const StepWork work = follow(sliding_box(FrictionLaw::associated)).work;
   EXPECT_GT(work.friction, 0.0);
