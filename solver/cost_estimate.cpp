@@ -161,7 +161,8 @@ void estimate_motion(const Case& scene, const Assembly& assembly, const ContactP
   while (more()) {
     const double before = cpu_seconds();
     StepReport report;
-    const auto step = [&] { report = simulation.advance(step_limit(scene, simulation.state().time)); };
+    const std::vector<KeyedTime> times = times_of(scene);
+    const auto step = [&] { report = simulation.advance(step_limit(scene, times, simulation.state().time)); };
     if (!add_time(fmt::format("step {}", cost->steps.size() + 1), step, cost)) break;
     cost->steps.push_back({report.h, report.solve.iterations, cpu_seconds() - before});
   }

@@ -1,9 +1,43 @@
 #include "assembly/case/case_times.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "assembly/files/time_table.hpp"
+
 namespace cupola {
+namespace {
+
+const char* const kGround = "supports.base_motion";
+constexpr double kSameTime = 1e-9;  // relative difference of equal times by rounding
+
+/// What ends after `end` (s), the value of `key`.
+std::vector<std::string> cut_off(const std::vector<KeyedTime>& times, const std::string& key, double end) {
+  double last = 0.0;
+  std::vector<std::string> cut;
+  for (const KeyedTime& time : times) {
+    const double until = seen_by(time.function);
+    if (until <= (1.0 + kSameTime) * end) continue;
+    cut.push_back(fmt::format("{} ({:g} s)", time.key, until));
+    last = std::max(last, until);
+  }
+  if (cut.empty()) return {};
+  return {fmt::format("{} = {:g} s ends before {}: the answer is that up to {:g} s; give {:g} s or more", key,
+                      end, fmt::join(cut, ", "), end, last)};
+}
+
+}  // namespace
+
+TimeFunction ground_time(const BaseMotion& motion) {
+  TableInTime table = read_time_table(motion.file);
+  if (motion.quantity == BaseMotion::Quantity::acceleration) return integrate_twice(table);
+  const double start = factor_at(table, 0.0);
+  for (double& value : table.values) value -= start;
+  return table;
+}
 
 std::vector<KeyedTime> times_of(const Case& scene) {
   std::vector<KeyedTime> times;
@@ -17,7 +51,14 @@ std::vector<KeyedTime> times_of(const Case& scene) {
   add("loads.heat", scene.loads.heat);
   times.push_back({"loads.dead_load_time", scene.loads.dead_load_time});
   times.push_back({"joints.friction_time", scene.joints.friction_time});
+  if (scene.supports.base_motion) times.push_back({kGround, ground_time(*scene.supports.base_motion)});
   return times;
+}
+
+double default_duration(const Case& scene) {
+  double last = 0.0;
+  for (const KeyedTime& time : times_of(scene)) last = std::max(last, seen_by(time.function));
+  return last + Analysis().duration;
 }
 
 std::vector<std::string> unused_times(const Case& scene) {
@@ -28,7 +69,7 @@ std::vector<std::string> unused_times(const Case& scene) {
       analysis.type == AnalysisType::limit && analysis.limit.parameter == LimitSearch::Parameter::spread;
   std::vector<std::string> values;
   for (const KeyedTime& time : times_of(scene))
-    if (varies(time.function) && !(spread && time.key.starts_with("supports.moves")))
+    if (varies(time.function) && time.key != kGround && !(spread && time.key.starts_with("supports.moves")))
       values.push_back(fmt::format("{} = {:g}", time.key, factor_at(time.function, 0.0)));
   if (!values.empty())
     out.push_back(fmt::format(
@@ -36,8 +77,27 @@ std::vector<std::string> unused_times(const Case& scene) {
         "or use type: path",
         fmt::join(values, ", "), to_string(analysis.type)));
   if (scene.supports.base_motion)
-    out.push_back(fmt::format("supports.base_motion: analysis.type: {} leaves it out; use type: dynamic",
+    out.push_back(fmt::format("{}: analysis.type: {} leaves it out; use type: dynamic", kGround,
                               to_string(analysis.type)));
+  return out;
+}
+
+std::vector<std::string> missed_changes(const Case& scene) {
+  const Analysis& analysis = scene.analysis;
+  // A path of a given length ends there, whatever the time.
+  if (analysis.type == AnalysisType::path)
+    return analysis.path.length ? std::vector<std::string>{}
+                                : cut_off(times_of(scene), "analysis.path.end", analysis.path.end);
+  if (analysis.type != AnalysisType::dynamic) return {};
+  const std::vector<KeyedTime> times = times_of(scene);
+  std::vector<std::string> out = cut_off(times, "analysis.duration", analysis.duration);
+  if (analysis.time_error) return out;
+  for (const KeyedTime& time : times)
+    if (const double pulse = shortest_pulse(time.function); pulse < (1.0 - kSameTime) * analysis.time_step)
+      out.push_back(fmt::format(
+          "analysis.time_step = {:g} s exceeds a pulse of {}, {:.2g} s, which steps may leave out; "
+          "give a shorter one, or analysis.time_error",
+          analysis.time_step, time.key, pulse));
   return out;
 }
 

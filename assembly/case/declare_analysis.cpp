@@ -208,9 +208,10 @@ void declare_analysis(Section& s, Analysis& analysis) {
   if (analysis.type == AnalysisType::dynamic)
     s.expect({"time_step", analysis.time_step, "s", 1e-7, 0.5, "too many zeros? Steps are in s",
               "in ms? Steps are in s"});
-  s.optional_number("time_error", analysis.time_error, {.unit = "m", .above = 0}, "none: fixed steps",
-                    "dynamic: adapt the time step, starting from time_step, so that the estimated error of a "
-                    "displacement in one step stays below this");
+  s.optional_number(
+      "time_error", analysis.time_error, {.unit = "m", .above = 0}, "none: fixed steps",
+      "dynamic: adapt the time step, starting from time_step, so that the estimated error of a "
+      "displacement in one step stays below this; steps that exceed it four times are repeated");
   s.optional_section("adaptive", analysis.adaptive, "dynamic: bounds of the steps that time_error chooses",
                      declare_adaptive);
   s.rule(!analysis.adaptive || analysis.time_error, "adaptive",
@@ -220,7 +221,8 @@ void declare_analysis(Section& s, Analysis& analysis) {
     analysis.adaptive->displacement_error = *analysis.time_error;
   }
   s.number("duration", analysis.duration, {.unit = "s", .above = 0},
-           "dynamic: simulated time; the last fixed step covers its end");
+           "dynamic: simulated time; the last fixed step covers its end",
+           "4 s after the last change of loads, supports and friction, or the first period of a wave");
   s.number("damping", analysis.damping, {.unit = "s", .min = 0},
            "damping coefficient over stiffness of contacts and ties, alpha");
   s.number("recovery_speed", analysis.recovery_speed, {.unit = "m/s", .above = 0},

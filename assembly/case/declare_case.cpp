@@ -122,6 +122,7 @@ void declare_case(Section& s, Case& the_case) {
   s.section("loads", the_case.loads, "gravity and other loads", declare_loads);
   s.section("ties", the_case.ties, "ties between two blocks", declare_ties);
   s.section("supports", the_case.supports, "motion imposed on fixed blocks", declare_supports);
+  the_case.analysis.duration = default_duration(the_case);
   s.section("analysis", the_case.analysis, "type of analysis, method and accuracy", declare_analysis);
   s.rule(the_case.supports.restraints.empty() || the_case.analysis.type != AnalysisType::staged, "supports",
          "restraints are not part of the stages of construction: remove supports.restraints");

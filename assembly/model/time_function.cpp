@@ -52,6 +52,8 @@ double at(const DisplacementInTime& motion, double time) {
   return motion.displacement[i] + s * (motion.velocity[i] + s * (table.values[i] / 2.0 + s * jerk / 6.0));
 }
 
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
 double last(const ConstantInTime&) {
   return 0.0;
 }
@@ -61,7 +63,7 @@ double last(const RampInTime& ramp) {
 }
 
 double last(const HarmonicInTime&) {
-  return std::numeric_limits<double>::infinity();
+  return kNever;
 }
 
 double last(const TableInTime& table) {
@@ -77,6 +79,85 @@ double last(const DisplacementInTime& motion) {
   return 0.0;
 }
 
+double corner(const ConstantInTime&, double) {
+  return kNever;
+}
+
+double corner(const RampInTime& ramp, double after) {
+  const double end = ramp.start + ramp.duration;
+  return after < ramp.start ? ramp.start : after < end ? end : kNever;
+}
+
+double corner(const HarmonicInTime& wave, double after) {
+  if (after < wave.start) return wave.start;
+  const double eighth = 0.125 / wave.frequency;
+  return wave.start + (std::floor((after - wave.start) / eighth) + 1.0) * eighth;
+}
+
+double corner(const TableInTime& table, double after) {
+  const std::vector<double>&times = table.times, &values = table.values;
+  const auto rate_before = [&](size_t i) {
+    return i == 0 || i == times.size() ? 0.0 : (values[i] - values[i - 1]) / (times[i] - times[i - 1]);
+  };
+  const auto first = std::upper_bound(times.begin(), times.end(), after);
+  for (auto i = static_cast<size_t>(first - times.begin()); i < times.size(); ++i)
+    if (rate_before(i) != rate_before(i + 1)) return times[i];
+  return kNever;
+}
+
+double corner(const DisplacementInTime& motion, double after) {
+  return corner(motion.acceleration, after);
+}
+
+double pulse(const ConstantInTime&) {
+  return kNever;
+}
+
+double pulse(const RampInTime&) {
+  return kNever;
+}
+
+double pulse(const HarmonicInTime& wave) {
+  return 0.5 / wave.frequency;
+}
+
+/// Where a table rises, or falls, all the way.
+struct Flank {
+  double start, end;  ///< s
+  double rise;
+};
+
+/// Without those of noise.
+std::vector<Flank> flanks(const TableInTime& table) {
+  constexpr double kNoise = 0.05;  // of the range of values
+  std::vector<Flank> all;
+  for (size_t i = 1; i < table.values.size(); ++i) {
+    const double rise = table.values[i] - table.values[i - 1];
+    if (rise == 0.0) continue;
+    if (all.empty() || all.back().rise * rise < 0.0) all.push_back({table.times[i - 1], 0.0, 0.0});
+    all.back().end = table.times[i];
+    all.back().rise += rise;
+  }
+  double highest = 0.0;
+  for (const Flank& flank : all) highest = std::max(highest, std::abs(flank.rise));
+  std::erase_if(all, [&](const Flank& flank) { return std::abs(flank.rise) < kNoise * highest; });
+  return all;
+}
+
+/// From the middle of a flank to that of the next.
+double pulse(const TableInTime& table) {
+  const std::vector<Flank> all = flanks(table);
+  double shortest = kNever;
+  for (size_t i = 1; i < all.size(); ++i)
+    if (all[i].rise * all[i - 1].rise < 0.0)
+      shortest = std::min(shortest, 0.5 * (all[i].start + all[i].end - all[i - 1].start - all[i - 1].end));
+  return shortest;
+}
+
+double pulse(const DisplacementInTime&) {
+  return kNever;
+}
+
 }  // namespace
 
 double factor_at(const TimeFunction& function, double time) {
@@ -85,6 +166,20 @@ double factor_at(const TimeFunction& function, double time) {
 
 double last_change(const TimeFunction& function) {
   return std::visit([](const auto& kind) { return last(kind); }, function);
+}
+
+double seen_by(const TimeFunction& function) {
+  const auto* wave = std::get_if<HarmonicInTime>(&function);
+  return wave ? wave->start + 1.0 / wave->frequency : last_change(function);
+}
+
+double next_corner(const TimeFunction& function, double time) {
+  constexpr double kRounding = 1e-9;  // s, of the time of a step that has ended at a corner
+  return std::visit([time](const auto& kind) { return corner(kind, time + kRounding); }, function);
+}
+
+double shortest_pulse(const TimeFunction& function) {
+  return std::visit([](const auto& kind) { return pulse(kind); }, function);
 }
 
 bool varies(const TimeFunction& function) {

@@ -50,7 +50,8 @@ class DynamicRun {
   const Analysis& analysis_;
   const AnalysisSinks& sinks_;
   Simulation simulation_;
-  double last_change_;  // s, of all loads, supports and frictions
+  const std::vector<KeyedTime> times_;  // of all loads, supports and frictions
+  double last_change_ = 0.0;            // s
   RunProgress progress_;
   StepReport report_;
   State seen_;  // from the ground
@@ -62,9 +63,8 @@ DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const Analys
       analysis_(scene.analysis),
       sinks_(sinks),
       simulation_(make_simulation(scene, assembly)),
-      last_change_(last_change(simulation_.model().ground.time)) {
-  for (const KeyedTime& time : times_of(scene))
-    last_change_ = std::max(last_change_, last_change(time.function));
+      times_(times_of(scene)) {
+  for (const KeyedTime& time : times_) last_change_ = std::max(last_change_, last_change(time.function));
 }
 
 bool DynamicRun::start_static(Summary* summary) {
@@ -96,7 +96,7 @@ std::string DynamicRun::checkpoint() const {
 
 void DynamicRun::step() {
   if (progress_.steps == 0) progress_.energy.start = simulation_.energy().total();
-  report_ = simulation_.advance(step_limit(scene_, simulation_.state().time));
+  report_ = simulation_.advance(step_limit(scene_, times_, simulation_.state().time));
   CUPOLA_ASSERT(!report_.solve.usable() || simulation_.state().v.allFinite());
   seen_ = seen_from_ground(simulation_.model(), simulation_.state(), report_.h);
   now_ = take_snapshot(simulation_, seen_);

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "assembly/files/time_table.hpp"
+#include "assembly/case/case_times.hpp"
 #include "assembly/model/block_region.hpp"
 
 namespace cupola {
@@ -44,10 +44,7 @@ Eigen::Quaterniond rotation_of(const Vec3& turn) {
 
 GroundMotion make_ground_motion(const Case& scene) {
   if (!scene.supports.base_motion) return {};
-  const BaseMotion& base = *scene.supports.base_motion;
-  const TableInTime table = read_time_table(base.file);
-  if (base.quantity == BaseMotion::Quantity::displacement) return {base.direction, table};
-  return {base.direction, integrate_twice(table)};
+  return {scene.supports.base_motion->direction, ground_time(*scene.supports.base_motion)};
 }
 
 std::vector<SupportMotion> make_support_motions(const Case& scene, const Assembly& assembly) {

@@ -60,12 +60,13 @@ bool is_over(const Analysis& analysis, int steps, double time) {
   return analysis.adaptive ? time >= analysis.duration * (1.0 - 1e-12) : steps >= num_steps(analysis);
 }
 
-double step_limit(const Case& scene, double time) {
+double step_limit(const Case& scene, const std::vector<KeyedTime>& times, double time) {
   const Analysis& analysis = scene.analysis;
   if (!analysis.adaptive) return analysis.time_step;
   const double every = scene.output.frames_every;
-  const double next_frame = (std::floor(time / every + 1e-9) + 1.0) * every;
-  return std::min(next_frame, analysis.duration) - time;
+  double end = std::min((std::floor(time / every + 1e-9) + 1.0) * every, analysis.duration);
+  for (const KeyedTime& of : times) end = std::min(end, next_corner(of.function, time));
+  return end - time;
 }
 
 }  // namespace cupola

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "assembly/case/case.hpp"
+#include "assembly/case/case_times.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 
 namespace cupola {
@@ -27,8 +27,8 @@ std::string missed_width(double width, double asked);
 int num_steps(const Analysis& analysis);
 /// True if a dynamic analysis has reached its duration at `time` (s), after `steps`.
 bool is_over(const Analysis& analysis, int steps, double time);
-/// Longest step of a dynamic analysis from `time`, s. Adaptive steps end at the times of frames and at the
-/// end of the analysis.
-double step_limit(const Case& scene, double time);
+/// Longest step of a dynamic analysis from `time`, s. Adaptive steps end at the times of frames, where one of
+/// the functions of time bends, and at the end of the analysis.
+double step_limit(const Case& scene, const std::vector<KeyedTime>& times, double time);
 
 }  // namespace cupola

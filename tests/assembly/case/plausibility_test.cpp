@@ -156,6 +156,49 @@ TEST(ImplausibleValues, AccelerogramsThatEndInMotion) {
       << ends_fast[0];
 }
 
+// A motion lasts 4 s longer than what it follows, and says what it leaves out.
+TEST(MissedChanges, OfRecordsLongerThanTheMotion) {
+  const ScratchFolder scratch;
+  scratch.write("quake.csv", "0, 0\n5, 0\n6, 0.1\n12, 0\n15, 0\n");
+  const auto read = [&](const std::string& analysis) {
+    return read_case(scratch.write("quake.yaml",
+                                   "extends: cupola:arch\nsupports: {base_motion: {file: quake.csv}}\n"
+                                   "analysis: {type: " +
+                                       analysis + "}\n"));
+  };
+  EXPECT_EQ(read("dynamic").analysis.duration, 16.0);
+  EXPECT_TRUE(read("dynamic").warnings.empty());
+  EXPECT_TRUE(read("dynamic, duration: 12").warnings.empty());
+  EXPECT_EQ(read("dynamic, duration: 4").warnings,
+            std::vector<std::string>{
+                "analysis.duration = 4 s ends before supports.base_motion (12 s): the answer is "
+                "that up to 4 s; give 12 s or more"});
+  EXPECT_EQ(read("path").warnings,
+            std::vector<std::string>{
+                "analysis.path.end = 1 s ends before supports.base_motion (12 s): the answer is "
+                "that up to 1 s; give 12 s or more"});
+  EXPECT_TRUE(read("path, path: {length: 0.01}").warnings.empty()) << "its length ends it";
+}
+
+// A blow of 6 ms in fixed steps of 10 ms. A sudden load that stays comes too late by half a step at most.
+TEST(MissedChanges, OfPulsesShorterThanAStep) {
+  const auto warnings = [](const std::string& values, const std::string& analysis) {
+    return read_case(
+               bundled_folder() + "/arch.yaml",
+               {"loads.dead_load_time={type: table, times: [1, 1.001, 1.006, 1.007], values: " + values + "}",
+                "analysis={type: dynamic" + analysis + "}"})
+        .warnings;
+  };
+  EXPECT_EQ(warnings("[0, 1, 1, 0]", ""),
+            std::vector<std::string>{
+                "analysis.time_step = 0.01 s exceeds a pulse of loads.dead_load_time, 0.006 s, "
+                "which steps may leave out; give a shorter one, or analysis.time_error"});
+  EXPECT_TRUE(warnings("[0, 1, 1, 0]", ", time_step: 0.005").empty());
+  EXPECT_TRUE(warnings("[0, 1, 1, 0]", ", time_error: 1e-5").empty());
+  EXPECT_TRUE(warnings("[0, 1, 1, 1.5]", "").empty());
+  EXPECT_TRUE(warnings("[0, 1, 1, 0.99]", "").empty()) << "noise";
+}
+
 // All analyses but motions and paths take loads, supports and friction as they are at the time 0.
 TEST(UnusedTimes, AreNamedWithTheirFactor) {
   const auto warnings = [](const std::vector<std::string>& options) {

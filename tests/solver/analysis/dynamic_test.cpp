@@ -391,6 +391,23 @@ TEST(AdaptiveStep, TakesFewStepsAndEndsOnTheTimesOfFrames) {
 }
 
 // 0.3 s does not divide 1 s, nor 0.5 s; 0.1 s does, up to rounding.
+// A blow of 1 MN for 6 ms (from half to half of its flanks) on a cube at rest, whose steps have grown to 50 ms:
+// v = 6 m/s less mu g (7 ms), then v^2 / (2 mu g).
+TEST(AdaptiveStep, SeesShortLoads) {
+  Case scene = make_case(0.5, 0.0, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  scene.analysis.duration = 3.0;
+  scene.analysis.time_error = 1e-4;
+  scene.analysis.adaptive.emplace();
+  scene.loads.forces.push_back(
+      {BlockRef{1}, {}, {1e6, 0, 0}, TableInTime{"", {1.0, 1.001, 1.006, 1.007}, {0.0, 1.0, 1.0, 0.0}}});
+  const Summary s = run(scene, testing::box_on_floor({1, 1, 1})).summary;
+  const double mu_g = 0.5 * kG, v = 6.0 - mu_g * 7e-3;
+  EXPECT_NEAR(s.max_displacement_m.value(), 0.5 * v * v / mu_g, 0.03)
+      << "5 mm each of the blow and of the last step";
+}
+
 TEST(FixedSteps, CoverTheDurationAndTheTimesOfFrames) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   const auto frame_times = [&](double h) {
@@ -432,6 +449,21 @@ TEST(BaseMotion, CountsMotionFromTheGround) {
 
 // A cube of 1000 kg falls by 0.1 m on four points of 1e-8 m/N. A corner alone meets 250 kg: its time of impact
 // is sqrt(m c) = 1.6 ms.
+// Ground that stays where it is, at 0.6 m by its record, moves no block.
+TEST(BaseMotion, CountsFromTheGroundAtTheStart) {
+  const std::string path = ::testing::TempDir() + "/still.csv";
+  std::ofstream(path) << "0, 0.6\n1, 0.6\n";
+  for (const auto start : {Analysis::Start::rest, Analysis::Start::static_}) {
+    Case scene = make_case(0.5, 1e-8, 0.01);
+    scene.analysis.start = start;
+    scene.analysis.duration = 0.5;
+    scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::displacement, Vec3::UnitX()};
+    const Summary s = run(scene, testing::box_on_floor({1, 1, 1})).summary;
+    EXPECT_EQ(s.status, Status::stable) << s.message;
+    EXPECT_LT(s.max_displacement_m.value(), 6e-5) << "twice the weight of 9810 N on four springs of 1e-8 m/N";
+  }
+}
+
 TEST(Impact, IsElasticOnlyIfStepsResolveItUndamped) {
   const Assembly assembly = testing::make_boxes(
       {{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true}, {.center = {0, 0, 0.6}}});
