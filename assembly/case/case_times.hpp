@@ -25,7 +25,7 @@ double default_duration(const Case& scene);
 /// motions and paths take their values at the time 0.
 std::vector<std::string> unused_times(const Case& scene);
 
-/// Sentences on what motions and paths leave out: changes after their end, and pulses shorter than a fixed step.
+/// Sentences on what motions and paths leave out: changes after their end, pulses shorter than a fixed step.
 std::vector<std::string> missed_changes(const Case& scene);
 
 }  // namespace cupola

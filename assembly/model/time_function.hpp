@@ -53,10 +53,10 @@ double last_change(const TimeFunction& function);
 /// s, time by which all that the function does has been seen: last_change(), or the first period of a wave.
 double seen_by(const TimeFunction& function);
 
-/// s, first time after `time` at which the function bends, or an eighth of the period of a wave; infinity: none.
+/// s, first time after `time` at which the function bends, or an eighth of a wave begins; infinity: none.
 double next_corner(const TimeFunction& function, double time);
 
-/// s, shortest time between a rise and a fall, or a fall and a rise, that a longer step may leave out; infinity:
+/// s, shortest time between a rise and a fall, or the reverse, that a longer step may leave out; infinity:
 /// none, as of accelerograms, whose integral a step takes whole.
 double shortest_pulse(const TimeFunction& function);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/elastic_impact.hpp"
 #include "solver/dynamics/joint_damage.hpp"
@@ -207,10 +209,17 @@ void Simulation::start_from(const LoadedState& loaded) {
 
 std::vector<double> Simulation::travel(double h) const {
   std::vector<double> distance(state_.poses.size(), 0.0);
+  const VecX f = applied_forces(model_, state_, state_.time + 0.5 * h);
+  // Blocks that approach each other undetected are half the margin apart.
+  const double allowed = 0.25 * detector_.margin();
   for (int i = 0; i < model_.num_free(); ++i) {
     const int block = model_.free_blocks[i];
-    distance[block] =
-        h * (state_.v.segment<3>(6 * i).norm() + radius_[i] * state_.v.segment<3>(6 * i + 3).norm());
+    const auto reached = [&](const Vec6& v) {
+      return h * (v.head<3>().norm() + radius_[i] * v.tail<3>().norm());
+    };
+    const Mat6 M = mass_matrix(model_.assembly->blocks[block], state_.poses[block].q_WB);
+    const Vec6 gained = h * M.llt().solve(f.segment<6>(6 * i));
+    distance[block] = reached(state_.v.segment<6>(6 * i)) + std::max(0.0, reached(gained) - allowed);
   }
   std::vector<Pose> moved = state_.poses;
   place_supports(*model_.assembly, model_.support_motions, state_.time + h, &moved);

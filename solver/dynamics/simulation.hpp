@@ -103,8 +103,8 @@ class Simulation {
   void heat_contacts(const std::vector<Pose>& poses);
   /// Updates memories and islands after contacts were detected again.
   void follow_detection(const ContactSet& contacts);
-  /// Largest distance that a point of each block moves in a step h at its present velocity, or that of a
-  /// support in the step, m (num_blocks).
+  /// Largest distance that a point of each block moves in a step h under its present velocity and loads, but
+  /// for what the margin of detection allows, or that of a support in the step, m (num_blocks).
   std::vector<double> travel(double h) const;
 
   Model model_;

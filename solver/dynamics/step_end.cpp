@@ -35,9 +35,17 @@ VecX mean_velocity(const StepProblem& step, const State& state, const ContactSol
 
 namespace {
 
-/// What the generalized alpha method keeps of a contact, and the penetration that an impact leaves. `gap`: m,
-/// at the end of the step.
-void update_past(const Vec3& force_A, double gap, const StepOptions& options, ContactMemory* memory) {
+/// Where a contact stands at the ends of a step.
+struct StepEnds {
+  double approach = 0.0;  ///< m, in a step at the speed at the start, less the compression of its spring
+  double gap = 0.0;       ///< m, at the end
+};
+
+/// What the generalized alpha method keeps of a contact, and the penetration that an impact leaves. `moved`:
+/// m, by the loads in a step from rest.
+void update_past(const Vec3& force_A, const StepEnds& ends, double moved, const StepOptions& options,
+                 ContactMemory* memory) {
+  const double gap = ends.gap;
   const Integrator& scheme = options.integrator;
   const bool smooth = has_past(*memory, options);
   memory->filtered_A =
@@ -49,7 +57,9 @@ void update_past(const Vec3& force_A, double gap, const StepOptions& options, Co
     memory->overlap = std::min(0.0, std::max(memory->overlap, gap));
   else if (!smooth)
     memory->overlap = std::min(0.0, gap - memory->elastic_gap);
-  memory->loaded_steps = loaded ? memory->loaded_steps + 1 : 0;
+  // The force of an impact is no force from which the next step could go on.
+  const bool met = !smooth && ends.approach > moved;
+  memory->loaded_steps = !loaded ? 0 : met ? 1 : memory->loaded_steps + 1;
 }
 
 }  // namespace
@@ -63,11 +73,14 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
   const VecX u = step.with_supports(relative_velocity(problem, solution.v));
   const double h = options.reach();
   std::vector<ContactMemory>& values = memories->stored();
+  const double moved = options.h * options.h * reference_acceleration(model, state);
   const auto update = [&](int i) {
     const Contact& contact = contacts.points[i];
     ContactMemory& memory = values[i];
     const Mat3 R_WC = contact_frame(contact.normal);
     const double rest = known_motion(step, i, state.v, options).rest[0];
+    const double speed = relative_velocity(problem, i, state.v)[0] + step.support_velocity_of(i)[0];
+    const double approach = memory.elastic_gap - options.h * speed;
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
     const Vec3 b = problem.b.segment<3>(3 * i) - step.support_velocity_of(i);
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
@@ -91,7 +104,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     if (options.integrator.is_euler()) return;
     const Vec3 force_C = gamma / step.impulse_time[i];
     update_past(state.poses[contact.block_a].q_WB.conjugate() * (R_WC * force_C),
-                contact.gap + rest + h * u[3 * i], options, &memory);
+                {approach, contact.gap + rest + h * u[3 * i]}, moved, options, &memory);
   };
   constexpr double kOperationsPerContact = 200.0;
   share_range(kOperationsPerContact * step.num_contacts, step.num_contacts, [&](int first, int last) {

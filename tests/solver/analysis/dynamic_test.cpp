@@ -391,7 +391,7 @@ TEST(AdaptiveStep, TakesFewStepsAndEndsOnTheTimesOfFrames) {
 }
 
 // 0.3 s does not divide 1 s, nor 0.5 s; 0.1 s does, up to rounding.
-// A blow of 1 MN for 6 ms (from half to half of its flanks) on a cube at rest, whose steps have grown to 50 ms:
+// A blow of 1 MN for 6 ms (from half to half of its flanks) on a cube at rest, whose steps are now 50 ms:
 // v = 6 m/s less mu g (7 ms), then v^2 / (2 mu g).
 TEST(AdaptiveStep, SeesShortLoads) {
   Case scene = make_case(0.5, 0.0, 0.01);

@@ -112,6 +112,34 @@ TEST(DroppedBox, ComesToRestOnAFace) {
   drop(box_in_the_air(1.5), 10, 3);
 }
 
+// In one step from rest, g h^2 = 25 mm, a tile would pass through a gap of 5 mm and its own thickness.
+TEST(DroppedBox, IsSeenBeforeItsFirstStepLeadsThroughTheFloor) {
+  const double gap = 5e-3, thickness = 0.015;
+  const Assembly assembly = box_on_floor({1.0, 1.0, thickness});
+  testing::AccountedSimulation simulation(make_case(0.5, 0.0, 0.05), assembly);
+  simulation.mutable_state()->poses[1].p_WB.z() += gap;
+  for (int step = 0; step < 10; ++step) simulation.advance();
+  EXPECT_NEAR(simulation.state().poses[1].p_WB.z(), 0.5 * thickness, 1e-9) << "rounding";
+}
+
+// The same of a couple that would turn an edge of a plate by 0.1 m in the first step.
+TEST(DroppedBox, IsSeenBeforeItsFirstStepTurnsItIntoTheFloor) {
+  const double h = 0.05, gap = 5e-3;
+  const Assembly assembly = box_on_floor({1.0, 1.0, 0.1});
+  Case scene = make_case(0.0, 0.0, h);
+  scene.loads.gravity.setZero();
+  BlockForce turn;
+  turn.block = BlockRef{1};
+  turn.moment = Vec3(0, 0.1 / (0.5 * h * h) * assembly.blocks[1].inertia(1, 1), 0);
+  scene.loads.forces.push_back(turn);
+  testing::AccountedSimulation simulation(scene, assembly);
+  simulation.mutable_state()->poses[1].p_WB.z() += gap;
+  simulation.advance();
+  const Pose& pose = simulation.state().poses[1];
+  // The contact point moves along the floor while the plate turns by up to 0.2, to the second order.
+  EXPECT_GT((pose.p_WB + pose.q_WB * Vec3(0.5, 0, -0.05)).z(), -0.01);
+}
+
 TEST(DroppedBoxSlow, ThousandOnAPlane) {
   drop(box_in_the_air(0.0), 1000, 4);
 }
