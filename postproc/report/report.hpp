@@ -38,8 +38,8 @@ std::vector<std::string> finding_sentences(const Evaluation& evaluation);
 
 /// The verdict and the solution quality in words, each with its numbers.
 std::string verdict_text(const Summary& summary, FrameRole shown);  ///< `shown`: of the frame evaluated
-/// "no equilibrium exists" if that is proven, otherwise "no equilibrium was found". A motion proves nothing;
-/// one that comes to rest after its collapse says so.
+/// "no equilibrium exists" if that is proven, otherwise "no equilibrium was found". A motion seeks none: it is
+/// in motion at its end, or comes to rest after its collapse.
 std::string lack_of_equilibrium(const Summary& summary, FrameRole shown);
 std::vector<std::string> quality_sentences(const Evaluation& evaluation);
 

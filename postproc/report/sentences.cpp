@@ -135,8 +135,8 @@ bool shows_bracket(const CriticalValue& critical) {
 std::string lack_of_equilibrium(const Summary& s, FrameRole shown) {
   if (s.status == Status::collapsed && s.rest_at_end.value_or(false))
     return "it rests only after it collapsed";
-  return s.status == Status::moving && shown != FrameRole::step ? "no equilibrium exists"
-                                                                : "no equilibrium was found";
+  if (shown == FrameRole::step && s.status != Status::unconverged) return "it is in motion at its end";
+  return s.status == Status::moving ? "no equilibrium exists" : "no equilibrium was found";
 }
 
 std::string verdict_text(const Summary& s, FrameRole shown) {

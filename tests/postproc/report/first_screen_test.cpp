@@ -381,6 +381,7 @@ TEST(FirstScreen, AMotionBeginsWithHowFarAndWhen) {
   const std::vector<KeyNumber> numbers = key_numbers(e, history);
   ASSERT_EQ(numbers.size(), 4u);
   EXPECT_EQ(numbers[0].value, "none") << "the margin";
+  EXPECT_TRUE(numbers[0].detail.starts_with("it is in motion at its end; to compute")) << numbers[0].detail;
   EXPECT_EQ(numbers[1].value, "800 mm");
   EXPECT_EQ(numbers[2].value, "at 1.26 s");
   EXPECT_EQ(numbers[3].value, "0.4 m/s");
