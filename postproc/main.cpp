@@ -62,6 +62,8 @@ ExitCode run_analyse(int argc, char** argv) {
   request.run.scene = line.read_case();
   request.run.strict = line.strict();
   request.quiet = line.quiet();
+  if (request.tables_only && request.pictures)
+    throw InputError("--tables draws nothing: leave out --tables or --pictures");
   if (line.check_only()) return line.report_warnings(request.run.scene.warnings), ExitCode::done;
 
   // 3. Evaluation and output

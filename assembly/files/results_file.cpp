@@ -119,7 +119,11 @@ ContactTable read_contacts(const Mesh& mesh) {
   contacts.point = points_of(mesh);
   const ColumnReader read{contacts.point.size(), mesh, mesh.point_data};
   fields(read, contacts);
-  if (mesh.has(mesh.point_data, "strength_use")) strength_fields(read, contacts);
+  if (!mesh.has(mesh.point_data, "strength_use")) return contacts;
+  if (!mesh.has(mesh.point_data, "friction_limit_N"))
+    throw InputError(FileLocation{mesh.file},
+                     "has no `friction_limit_N`, as of versions before 0.5.2; run cupola-solve again");
+  strength_fields(read, contacts);
   return contacts;
 }
 

@@ -52,6 +52,8 @@ struct ContactTable {
   std::vector<double> slip;          ///< m, accumulated sliding
   /// Error of the force in the contact law, over the force of the joint; NaN where both blocks sleep.
   std::vector<double> law_violation;
+  /// N, cohesion left x area + mu x normal force; empty if all joints are dry.
+  std::vector<double> friction_limit;
   /// Pressure over the compressive strength, or pull over the tensile strength; empty if all joints are dry.
   std::vector<double> strength_use;
   /// Share of tension and cohesion that is lost, in [0, 1]; empty if all joints are dry.

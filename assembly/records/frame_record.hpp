@@ -32,6 +32,8 @@ void fields(Visitor&& visit, Is<ContactTable> auto& c) {
 /// Of contacts where some joint has strength; empty otherwise.
 template <class Visitor>
 void strength_fields(Visitor&& visit, Is<ContactTable> auto& c) {
+  visit("friction_limit_N", "N", "largest tangential force: cohesion left times area + mu times normal force",
+        c.friction_limit);
   visit("strength_use", "",
         "pressure over the compressive strength, or pull over the tensile strength that is left",
         c.strength_use);

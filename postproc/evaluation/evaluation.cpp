@@ -261,6 +261,14 @@ void evaluate_cuts(const std::vector<bool>& left_out, Evaluation* e) {
 
 }  // namespace
 
+bool is_limit(const Evaluation& e) {
+  return e.summary.analysis == AnalysisType::limit;
+}
+
+bool is_rigid(const Evaluation& e) {
+  return is_limit(e) || !e.summary.ranges.empty();
+}
+
 bool at_rest(const Evaluation& e) {
   switch (e.last.frame.role) {
     case FrameRole::equilibrium:
@@ -371,6 +379,9 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   const TieTable& ties = e.last.frame.ties;
   const int restraints = 2 * static_cast<int>(scene.supports.restraints.size());  // come last, both signs
   e.reactions = support_reactions(e.assembly, e.last.joints, e.shell, ties, ties.size() - restraints);
+  if (e.summary.critical &&
+      e.summary.critical->parameter == "joint_extent")  // joints are shorter than supports
+    for (Reaction& r : e.reactions) r.length = std::numeric_limits<double>::quiet_NaN();
   e.parts = connected_parts(e.assembly, e.last.joints);
   find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);

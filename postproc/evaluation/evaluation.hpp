@@ -101,6 +101,11 @@ struct Evaluation {
 /// stable.
 bool at_rest(const Evaluation& evaluation);
 
+bool is_limit(const Evaluation& evaluation);
+
+/// True if joints are taken as rigid, in limits and ranges, so that their gaps are not the widths of cracks.
+bool is_rigid(const Evaluation& evaluation);
+
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);
 

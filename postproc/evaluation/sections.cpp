@@ -89,7 +89,7 @@ void add_resultants(const Evaluation& e, const ThrustInput& input, int bed, bool
     const CentralAxis axis = central_axis(wrench);
     if (!axis.exists) continue;
     const double height = height_of(e, on_bed ? bed : block.ring);
-    const Vec3 point = axis_in_plane(axis, wrench.force, {e.up, height});
+    const Vec3 point = axis_in_plane(axis, wrench.force, {Vec3::UnitZ(), height});
     resultants->push_back({b, block.kind, wrench, point, azimuth(e.assembly, b, b, point),
                            couple_length(wrench, e.last.joints.floor)});
   }

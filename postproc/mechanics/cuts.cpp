@@ -65,7 +65,11 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   }
   for (int i = 0; i < ties.size(); ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];
-    if (positive(a) == positive(b) || outwards.dot(ties.point_a[i] - foot) <= 0.0) continue;
+    if (positive(a) == positive(b)) continue;
+    const Vec3 from = ties.point_a[i] - foot, to = ties.point_b[i] - foot;
+    const double s = along.dot(from), t = along.dot(to);
+    const double share = s * t < 0.0 ? s / (s - t) : 0.5;  // else the bar ends in a block that the plane cuts
+    if (outwards.dot((1.0 - share) * from + share * to) <= 0.0) continue;  // beyond the axis
     const Vec3 on_b = tie_force_on_b(ties, i);
     if (const auto row = rows.find(assembly.blocks[a].ring); row != rows.end())
       row->second.tie_force += along.dot(positive(b) ? on_b : Vec3(-on_b));

@@ -46,12 +46,14 @@ MechanismMotion mechanism_motion(const Assembly& assembly, const Frame& frame, c
     const double opens = speeds[i].turning(), slides = speeds[i].sliding;
     (parts ? at.parting : at.hinging) += opens;
     at.sliding += slides;
+    at.height += (opens + slides) * j.centroid.z();
     if (opens + slides > at.fastest) {
       at.fastest = opens + slides;
       at.on = below;
     }
   }
-  for (const auto& [course, at] : motion.by_course) {
+  for (auto& [course, at] : motion.by_course) {
+    at.height /= at.sum();
     motion.hinging += at.hinging;
     motion.sliding += at.sliding;
     motion.parting += at.parting;

@@ -18,6 +18,7 @@ struct GivesWay {
 /// How the joints below and in a course move.
 struct CourseMotion {
   double hinging = 0.0, sliding = 0.0, parting = 0.0;  ///< sums over the joints
+  double height = 0.0;                                 ///< m, mean over the joints, weighted by their motion
   int on = -1;           ///< course below its fastest joint, its own of a head joint; -1: a support
   double fastest = 0.0;  ///< of that joint
 

@@ -27,25 +27,26 @@ bool stands_on_other_sheet(const Assembly& assembly, const JointWrench& joint) {
          assembly.sheet_of(upper.ring) != assembly.sheet_of(lower.ring);
 }
 
-/// Tangential part of the force of a joint over the largest possible one. That of a point follows from its own
-/// use; of points without shear it is taken in proportion to normal force, in joints with strength to area.
+/// Tangential part of the force of a joint over the largest possible one. That of a point in a dry joint
+/// follows from its own use; of points without shear it is taken in proportion to normal force.
 double friction_use(const ContactTable& contacts, std::vector<int>::const_iterator begin,
                     std::vector<int>::const_iterator end) {
   constexpr double kNoShear = 1e-6;  // of a point's limit, which then has no digits left
   Vec3 shear = Vec3::Zero();
-  double limit = 0.0, known = 0.0, weights = 0.0;
+  const bool dry = contacts.friction_limit.empty();
+  double limit = 0.0, known = 0.0, pressed = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row], use = contacts.friction_use[*row];
-    const double weight = contacts.strength_use.empty() ? n : contacts.area[*row];
     const Vec3 t = contacts.force[*row] - n * contacts.normal[*row];
     shear += t;
-    weights += weight;
-    if (!(use > kNoShear)) continue;
+    pressed += n;
+    if (!dry) limit += contacts.friction_limit[*row];
+    if (!dry || !(use > kNoShear)) continue;
     limit += t.norm() / use;
-    known += weight;
+    known += n;
   }
-  if (limit == 0.0) return 0.0;
-  return shear.norm() / (known > 0.0 ? limit * weights / known : limit);
+  if (known > 0.0) limit *= pressed / known;
+  return limit > 0.0 ? shear.norm() / limit : 0.0;
 }
 
 /// Share of the area of the joint whose points carry no normal force.
@@ -94,7 +95,7 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   }
   joint->centroid = joint->area > 0.0 ? Vec3(joint->centroid / joint->area) : joint->patch.centroid;
   joint->centre_of_pressure = joint->patch.centroid;
-  if (joint->normal_force > 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
+  if (joint->normal_force != 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
   joint->friction_use = friction_use(contacts, begin, end);
   if (joint->area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / joint->area;
   joint->wrench.point = joint->centre_of_pressure;
@@ -119,7 +120,8 @@ void measure(const Floor& floor, JointWrench* joint) {
   const Eigen::Vector2d in_patch = joint->patch.coordinates(joint->centre_of_pressure);
   joint->eccentricity = above(in_patch.norm(), floor.length);
   joint->edge_distance = distance_to_outline(joint->patch, in_patch);
-  joint->kern = above(kern_use(joint->patch, in_patch), floor.share);
+  joint->kern = joint->normal_force < 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                                          : above(kern_use(joint->patch, in_patch), floor.share);
   joint->friction_use = above(joint->friction_use, floor.share);
   joint->axis = central_axis(joint->wrench);
   joint->couple_length = couple_length(joint->wrench, floor);

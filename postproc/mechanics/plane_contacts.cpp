@@ -55,6 +55,7 @@ void spread_across_plane(ContactTable* contacts) {
     c.force[i] *= 0.5;
     c.normal_force[i] *= 0.5;
     c.area[i] *= 0.5;
+    if (!c.friction_limit.empty()) c.friction_limit[i] *= 0.5;
   }
 }
 

@@ -86,6 +86,21 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
   }
 }
 
+/// Sums what blocks push outwards across the cuts of their stack on blocks below, whichever way their joints
+/// face: blocks of several courses pass the cuts above their first.
+void add_outward_between_rings(const Assembly& assembly, const JointWrenches& joints,
+                               std::vector<RingSum>* rings) {
+  for (const JointWrench& joint : joints.wrenches) {
+    const int a = ring_above_support(assembly.blocks[joint.block_a]),
+              b = ring_above_support(assembly.blocks[joint.block_b]);
+    const auto [lower, upper] = std::minmax(a, b);
+    if (lower < assembly.stack_of(std::max(upper, 0)).first) continue;  // a support, or another stack
+    const Vec3 on_upper = wrench_on(joint, b > a ? joint.block_b : joint.block_a).force;
+    for (int k = lower + 1; k <= upper; ++k)
+      (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(on_upper);
+  }
+}
+
 /// The block of the first course of a stack that stands on another stack by this joint, whichever way the
 /// joint faces: a springer of a groin vault also leans on its pier.
 std::optional<int> on_other_stack(const Assembly& assembly, const JointWrench& joint) {
@@ -118,7 +133,9 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     ring_area[k] += joint.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
-    ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);
+    const int below = carried == joint.block_a ? joint.block_b : joint.block_a;
+    if (assembly.blocks[below].fixed)
+      ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {
@@ -167,6 +184,7 @@ std::vector<RingSum> ring_sums(const Assembly& assembly, const Shell& shell, con
   for (int k = 0; k < num_rings; ++k) rings[k] = {.ring = k, .height = height_as_built(shell.beds[k])};
   add_loads(assembly, gravity, loads, left_out, &rings);
   add_joint_forces(assembly, joints, ties, left_out, &rings);
+  add_outward_between_rings(assembly, joints, &rings);
   add_uniformity(assembly, joints, from_below, &rings);
   for (RingSum& ring : rings) {
     if (ring.blocks == 0 && !left_out.empty()) ring = {.ring = ring.ring, .height = ring.height};

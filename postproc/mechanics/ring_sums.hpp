@@ -28,7 +28,9 @@ struct RingSum {
   double mean_resultant = 0.0;       ///< N, mean force of the ring's blocks from the ring below
   double cv_resultant = 0.0;         ///< coefficient of variation of these forces
   double cv_pressure = 0.0;          ///< the same of normal force over joint area, for blocks of unequal size
-  double radial_thrust = 0.0;  ///< N, sum of the horizontal outward forces of its joints on the ring below
+  /// N, sum of the horizontal outward forces across the cut on blocks below it in the stack, and of the ring on
+  /// supports.
+  double radial_thrust = 0.0;
   double largest_couple_length = 0.0;  ///< m, of a block's wrench from below
   double largest_friction_use = 0.0;   ///< of the ring's bed joints
   double largest_kern = 0.0;           ///< kern utilisation of the ring's bed joints

@@ -126,10 +126,6 @@ KeyNumber end_of_path(const Evaluation& e) {
           fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
 }
 
-bool is_limit(const Evaluation& e) {
-  return e.summary.analysis == AnalysisType::limit;
-}
-
 /// ", the widest 25 as 12 cracks over 14 m, none through the shell": hairlines form no crack.
 std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
   if (cracks.empty()) return "";
@@ -210,8 +206,7 @@ KeyNumber margin_answer(const Evaluation& e) {
 }
 
 std::optional<KeyNumber> crack_answer(const Evaluation& e) {
-  const bool rigid = is_limit(e) || !e.summary.ranges.empty();
-  if (!at_rest(e) || rigid) return std::nullopt;
+  if (!at_rest(e) || is_rigid(e)) return std::nullopt;
   const std::vector<Crack>& cracks = e.joint_cracks;
   if (cracks.empty())
     return KeyNumber{
@@ -238,8 +233,8 @@ std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& 
   if (margin.name != "Margin") margin.value = margin.name + " " + margin.value;
   out.push_back(line("margin", margin));
   const std::string loads = loads_text(e);
-  out.push_back(fmt::format("  {:<9} {}{}", "weight", force_text(e.summary.weight_N),
-                            loads.empty() ? "" : "; with " + loads));
+  out.push_back(
+      fmt::format("  {:<9} {}{}", "weight", weight_text(e), loads.empty() ? "" : "; with " + loads));
   if (const auto thrust = thrust_answer(e))
     out.push_back(line("thrust", *thrust));
   else

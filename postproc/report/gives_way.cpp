@@ -24,7 +24,7 @@ std::string course_text(const Evaluation& e, int course, const CourseMotion& mot
   else if (below && below != sheet)
     name += " on " + below->name;
   constexpr double kShown = 1e-4;  // m
-  const double height = std::round(e.rings[course].height / kShown) * kShown + 0.0;
+  const double height = std::round(motion.height / kShown) * kShown + 0.0;
   const double most = std::max({motion.hinging, motion.sliding, motion.parting});
   return fmt::format("{} (z = {:.3g} m, {})", name, height,
                      most == motion.hinging   ? "hinges"

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "postproc/evaluation/quantity_text.hpp"
+#include "postproc/evaluation/thrust.hpp"
 
 namespace cupola {
 namespace {
@@ -24,12 +25,22 @@ LoadGroup group_of(const Loads& loads, int time) {
 
 }  // namespace
 
+double acting_weight(const Evaluation& e) {
+  const double full = e.acting.gravity.norm();
+  return full > 0.0 ? e.summary.weight_N * e.last.gravity.norm() / full : e.summary.weight_N;
+}
+
+std::string weight_text(const Evaluation& e) {
+  const double acting = acting_weight(e), full = e.summary.weight_N;
+  return force_text(acting) + (alike(acting, full) ? "" : " of " + force_text(full));
+}
+
 std::string loads_text(const Evaluation& e) {
   constexpr double kRounding = 1e-9;  // of the weight: forces that balance each other
   std::array<double, kGroupNames.size()> down{};
   for (const PointForce& load : e.last.loads)
     down[static_cast<size_t>(group_of(e.acting, load.time))] -= load.force.dot(e.up);
-  double total = e.summary.weight_N;
+  double total = acting_weight(e);
   std::vector<std::string> parts;
   for (size_t i = 0; i < down.size(); ++i) {
     if (std::abs(down[i]) <= kRounding * e.summary.weight_N) continue;

@@ -6,6 +6,12 @@
 
 namespace cupola {
 
+/// N, of the free blocks, as it acts at the time shown.
+double acting_weight(const Evaluation& evaluation);
+
+/// "110 kN", or "64 kN of 110 kN" where `loads.dead_load_time` lets a part act.
+std::string weight_text(const Evaluation& evaluation);
+
 /// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all": what acts downwards besides the weight of the free
 /// blocks, at the time shown, and the sum with it; "" if nothing does.
 std::string loads_text(const Evaluation& evaluation);

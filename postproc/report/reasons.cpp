@@ -74,9 +74,9 @@ const char* carriers(const Evaluation& e) {
 /// Why one equilibrium stands: what carries what, and after which motion.
 std::string carried_text(const Evaluation& e) {
   const std::string loads = loads_text(e);
-  const std::string carry = fmt::format("The {} carry the weight of {}, {}{}{}", carriers(e),
-                                        counted(e.summary.free_blocks, "block"),
-                                        force_text(e.summary.weight_N), loads.empty() ? "" : ", ", loads);
+  const std::string carry =
+      fmt::format("The {} carry the weight of {}, {}{}{}", carriers(e),
+                  counted(e.summary.free_blocks, "block"), weight_text(e), loads.empty() ? "" : ", ", loads);
   if (support_motion(e) > 0.0) return fmt::format("{}, although {}.", carry, moved_text(e));
   if (e.last.frame.role == FrameRole::step)
     return fmt::format("{}, at rest after {:.4g} s of motion, in which {}.", carry, e.last.frame.time,
@@ -116,7 +116,7 @@ std::string assumptions(const Evaluation& e) {
       critical && critical->parameter == "load" ? "their weight, where the loads act and in which direction"
                                                 : "their weight and loads"};
   if (!loads.empty())
-    given.back() += fmt::format(" (weight of {}, {}{})", force_text(e.summary.weight_N), loads,
+    given.back() += fmt::format(" (weight of {}, {}{})", weight_text(e), loads,
                                 critical && !is_stage(e.last.frame.role) ? " at the critical value" : "");
   if (!critical || critical->parameter != "friction") given.push_back(friction_text(e.scene.joints));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");

@@ -220,8 +220,6 @@ std::string spread_over(const std::vector<Reaction>& supports) {
 
 /// The thrust per metre of support; "" where the supports of the first course do not bear it alone.
 std::string along_supports(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
-  // Joints of a smaller extent do not have the length of the supports.
-  if (e.summary.critical && e.summary.critical->parameter == "joint_extent") return "";
   if (is_held_higher(e, sheet)) return "";
   const auto length = [&](const Thrust& thrust) { return length_of(e, sheet, thrusting(e, sheet, thrust)); };
   const auto per_length = [&](const Thrust& thrust) { return thrust.force / length(thrust); };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <Eigen/Geometry>
@@ -26,6 +27,29 @@ std::vector<Box> boxes_of(const Assembly& assembly) {
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
       for (const int v : assembly.face(f)) boxes[part.block].extend(assembly.vertices[v]);
   return boxes;
+}
+
+/// True if a face of one convex part has all of the other on its outer side, farther than `distance` (m).
+bool is_beyond_a_face(const Assembly& assembly, const Part& part, const Part& other, double distance) {
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    const Plane plane = polygon_plane(face_points(assembly, f));
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int g = other.face_start; g < other.face_start + other.num_faces; ++g)
+      for (const int v : assembly.face(g))
+        nearest = std::min(nearest, plane.normal.dot(assembly.vertices[v]) - plane.offset);
+    if (nearest > distance) return true;
+  }
+  return false;
+}
+
+/// True if no face of a part of one block parts it from the other block.
+bool touch(const Assembly& assembly, int a, int b, double distance) {
+  for (const Part& p : assembly.parts)
+    for (const Part& q : assembly.parts)
+      if (p.block == a && q.block == b && !is_beyond_a_face(assembly, p, q, distance) &&
+          !is_beyond_a_face(assembly, q, p, distance))
+        return true;
+  return false;
 }
 
 /// Joins groups that follow each other by azimuth.
@@ -69,9 +93,11 @@ std::vector<std::vector<int>> support_groups(const Assembly& assembly) {
     if (assembly.blocks[b].fixed) fixed.push_back(b);
   DisjointSets touching(assembly.blocks.size());
   for (const int a : fixed)
-    for (const int b : fixed)
-      if (a < b && boxes[a].exteriorDistance(boxes[b]) <= kTouch * boxes[a].diagonal().norm())
+    for (const int b : fixed) {
+      const double distance = kTouch * boxes[a].diagonal().norm();
+      if (a < b && boxes[a].exteriorDistance(boxes[b]) <= distance && touch(assembly, a, b, distance))
         touching.join(a, b);
+    }
   std::map<int, std::vector<int>> found;
   for (const int b : fixed) found[touching.root(b)].push_back(b);
   if (found.size() == 1)

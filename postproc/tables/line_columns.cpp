@@ -45,7 +45,7 @@ const Columns<CrackRow>& crack_columns() {
       {"rotation_deg", "deg", "largest rotation of a joint, outwards opening positive",
        [](const C& c) { return c.crack.rotation * kDegrees; }},
       {"slip_m", "m", "largest accumulated slip of its joints", [](const C& c) { return c.crack.slip; }},
-      {"azimuth_deg", "deg", "of its middle, weighted by width",
+      {"azimuth_deg", "deg", "of its middle, weighted by width; of a turned member in its own frame",
        [](const C& c) { return c.crack.azimuth * kDegrees; }},
       {"middle_{}_m", "m", "its middle, weighted by width", [](const C& c) { return c.crack.middle; }},
       {"start_{}_m", "m", "centre of its first joint", [](const C& c) { return c.crack.start; }},
@@ -59,7 +59,7 @@ const Columns<BedResultant>& section_columns() {
   static const Columns<R> columns{
       {"block", "", "index in the assembly", &R::block},
       {"kind", "", "standard, herringbone or imported", &R::kind},
-      {"azimuth_deg", "deg", "azimuth of the resultant's point",
+      {"azimuth_deg", "deg", "azimuth of the resultant's point; of a turned member in its own frame",
        [](const R& r) { return r.azimuth * kDegrees; }},
       {"{}_m", "m", "point of the resultant's line of action at the bed's mean height", &R::point},
       {"force_{}_N", "N", "resultant on the part above the bed", [](const R& r) { return r.wrench.force; }},

@@ -82,8 +82,8 @@ const Columns<RingRow>& ring_columns() {
       {"cv_pressure", "", "coefficient of variation of the blocks' bed pressures",
        [](const R& r) { return r.cut.cv_pressure; }},
       {"radial_thrust_N", "N",
-       "sum of the forces of its joints on the ring below along the outward direction at the centroid of "
-       "each",
+       "sum of the forces on the blocks below the ring, and of the ring on supports, along the outward "
+       "direction at the centroid of each joint",
        [](const R& r) { return r.cut.radial_thrust; }},
       {"largest_couple_length_m", "m", "largest couple length of a block's wrench",
        [](const R& r) { return r.cut.largest_couple_length; }},

@@ -87,5 +87,31 @@ TEST(Chain, HoldsADomeWithoutFrictionAtItsBase) {
   EXPECT_EQ(without.status, Status::moving) << without.message;
 }
 
+// Three bars of which two cross the plane through the axis, one of them far from its ends: each half of the
+// plane has its own, and both together what the plane has.
+TEST(Chain, OfFewBarsCrossesTheHalfPlaneInWhichItsBarsMeetIt) {
+  const ProgramFolder folder;
+  Case scene = hemisphere(70.0, 6);
+  scene.joints.base.reset();
+  scene.geometry.chains[0].links = 3;
+  scene.geometry.chains[0].prestress = 8000.0;
+  const double angle = 20.0 * pi / 180.0;
+  scene.postproc.planes = {CutPlane{"whole", Vec3::Zero(), Vec3(-std::sin(angle), std::cos(angle), 0.0)}};
+  scene.postproc.meridians = {Meridian{"near", 20.0}, Meridian{"far", 200.0}};
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  ASSERT_EQ(e.meridians.size(), 2u);
+  double sum = 0.0;
+  for (const MeridianEvaluation& meridian : e.meridians) {
+    double ties = 0.0;
+    for (const HoopRow& row : meridian.hoop) ties += row.tie_force;
+    EXPECT_LT(ties, -0.5 * 8000.0) << meridian.thrust.name;
+    sum += ties;
+  }
+  ASSERT_EQ(e.planes.size(), 1u);
+  EXPECT_NEAR(std::abs(sum), std::abs(e.planes[0].from_ties.dot(scene.postproc.planes[0].normal)),
+              1e-9 * std::abs(sum))
+      << "rounding";
+}
+
 }  // namespace
 }  // namespace cupola::chains_test

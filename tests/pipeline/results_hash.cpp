@@ -66,6 +66,7 @@ void print_frame(const std::string& place, const Frame& frame) {
   print_array(place, "contacts.area", c.area);
   print_array(place, "contacts.slip", c.slip);
   print_array(place, "contacts.law_violation", c.law_violation);
+  print_array(place, "contacts.friction_limit", c.friction_limit);
   print_array(place, "contacts.strength_use", c.strength_use);
   print_array(place, "contacts.damage", c.damage);
   print_array(place, "contacts.crack_opening", c.crack_opening);

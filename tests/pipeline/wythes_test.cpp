@@ -46,6 +46,41 @@ Case two_leaves(double push, double down) {
   return scene;
 }
 
+// Blocks of the outer wythe pass every second bed of the inner one. What crosses a bed is the same whether it
+// is summed by wythes or over all.
+TEST(Wythes, ThrustOfARingCountsTheBlocksThatPassItsBed) {
+  Case scene;
+  DomeSurface dome;
+  dome.span = 6.0;
+  dome.radius_ratio = 0.5;
+  dome.crown_angle_deg = 70.0;
+  scene.geometry.surface = dome;
+  for (const int rings : {6, 3}) {
+    RunningBond bond;
+    bond.rings = rings;
+    bond.blocks_per_ring = 12;
+    bond.slices_per_block = 2;
+    Wythe wythe;
+    wythe.name = rings == 6 ? "inner" : "outer";
+    wythe.thickness.values = {0.3};
+    wythe.bond = bond;
+    scene.geometry.wythes.push_back(wythe);
+  }
+  scene.material.unit_weight = kUnitWeight;
+  scene.joints.friction = 0.8;
+  scene.joints.compliance = Compliance::default_per(Compliance::Per::area);
+  const ProgramFolder folder;
+  const Evaluation e = solve_and_evaluate(scene, folder);
+  ASSERT_EQ(e.summary.status, Status::stable) << e.summary.message;
+  ASSERT_EQ(e.rings.size(), 6u);
+  for (const RingSum& ring : e.rings) {
+    double outward = 0.0;
+    for (const WytheSum& sum : e.wythes) outward += sum.ring == ring.ring ? sum.outward_force : 0.0;
+    EXPECT_NEAR(ring.radial_thrust, outward, 1e-12 * e.summary.weight_N)
+        << "rounding of the sums, ring " << ring.ring;
+  }
+}
+
 // The back leaf leans away from the front one, so that neither helps the other. At the depth z below the top,
 // a length of wall has N = down t + gamma t z and M = push t z: the normal forces act M / N from the middle,
 // towards the back (position 0).

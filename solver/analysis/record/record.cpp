@@ -161,7 +161,9 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     table.friction_use.push_back(limit > 0.0 ? tangential_force / limit : 0.0);
     table.area.push_back(contact.area);
     table.slip.push_back(memories.of(i).plastic_slip);
-    if (model.joints.has_strength()) add_strength(law, memories.of(i), contact.gap, normal_force, &table);
+    if (!model.joints.has_strength()) continue;
+    table.friction_limit.push_back(std::max(0.0, limit));
+    add_strength(law, memories.of(i), contact.gap, normal_force, &table);
   }
 
   BlockTable& blocks = frame.blocks;
@@ -228,6 +230,7 @@ void append_parted(const ContactSet& built, const ContactSet& found, double marg
          {&table->normal_force, &table->friction_use, &table->slip, &table->law_violation})
       zero->push_back(0.0);
     if (!has_strength) continue;
+    table->friction_limit.push_back(0.0);
     table->strength_use.push_back(0.0);
     table->damage.push_back(1.0);
     table->crack_opening.push_back(contact.gap);

@@ -40,6 +40,7 @@ Frame two_block_frame(double time) {
     c.slip.push_back(1e-12 * i);
     c.law_violation.push_back(1e-9 / 3.0 * i);
     if (time == 0.0) continue;  // frames of dry joints have none of what follows
+    c.friction_limit.push_back(1e3 / 7.0 * i);
     c.strength_use.push_back(0.3 * i);
     c.damage.push_back(i / 3.0);
     c.crack_opening.push_back(1e-4 / 3.0 * i);
@@ -85,6 +86,7 @@ void expect_equal(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.contacts.area, b.contacts.area);
   EXPECT_EQ(a.contacts.slip, b.contacts.slip);
   EXPECT_EQ(a.contacts.law_violation, b.contacts.law_violation);
+  EXPECT_EQ(a.contacts.friction_limit, b.contacts.friction_limit);
   EXPECT_EQ(a.contacts.strength_use, b.contacts.strength_use);
   EXPECT_EQ(a.contacts.damage, b.contacts.damage);
   EXPECT_EQ(a.contacts.crack_opening, b.contacts.crack_opening);

@@ -20,6 +20,17 @@ TEST(Sections, CutTheBlocks) {
   EXPECT_NEAR(polygon_area(e.sections[0].polygons[0].outline), 0.96, 1e-12);
 }
 
+// Gravity leans by 45 degrees: points stay at the height of the bed, 1 m.
+TEST(Sections, HaveTheirPointsAtTheHeightOfTheBed) {
+  const Assembly a = test::column(3);
+  Case scene = test::column_case();
+  scene.loads.gravity = Vec3(kGravity, 0.0, -kGravity);
+  const Evaluation e = test::evaluated(a, {test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4)},
+                                       test::column_summary(a), scene, test::fresh_folder("results"));
+  ASSERT_EQ(e.sections.at(0).resultants.size(), 1u);
+  EXPECT_NEAR((e.sections[0].resultants[0].point - Vec3(0.6, 0.4, 1.0)).norm(), 0.0, 1e-12);
+}
+
 // On a path the column stands 0.3 m aside: so do the outlines of sections and planes, as their resultants do.
 TEST(Sections, CutTheBlocksWhereTheyStand) {
   const Assembly a = test::column(3);

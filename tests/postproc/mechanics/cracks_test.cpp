@@ -36,6 +36,18 @@ TEST(Cracks, RunAlongTheOpenEdgeOfEveryBed) {
   EXPECT_EQ(s.widest_crack_m.value(), 2e-3);
 }
 
+// The joints of a limit are rigid: gaps of its mechanism are no widths.
+TEST(Cracks, HaveNoWidthInALimit) {
+  const Assembly a = test::column(3);
+  Summary summary = test::column_summary(a);
+  summary.analysis = AnalysisType::limit;
+  const Evaluation e =
+      test::evaluated(a, {hinged(2e-3)}, summary, test::column_case(), test::fresh_folder("results"));
+  ASSERT_TRUE(at_rest(e));
+  EXPECT_EQ(post_summary(e).crack_length_m.value(), 2.4);
+  EXPECT_FALSE(post_summary(e).widest_crack_m);
+}
+
 // A block that lifts one corner: the widest crack is there, although a point has no length.
 TEST(Cracks, OfASinglePointCount) {
   const Assembly a = test::column(3);

@@ -36,5 +36,16 @@ TEST(JointSpeeds, AreThoseOfBlocksWhereTheirContactsWereFound) {
   EXPECT_EQ(hinges, 1);
 }
 
+// The height of what moves is that of its joints: a course may stand on two beds at different heights, as the
+// last one of an arch.
+TEST(JointSpeeds, GiveTheHeightOfTheJointsThatMove) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  for (const size_t b : {2u, 3u}) frame.blocks.velocity[b] = Vec3::UnitX();
+  const MechanismMotion motion = mechanism_motion(a, frame, joint_wrenches(a, frame.contacts, {}));
+  ASSERT_EQ(motion.by_course.size(), 1u);
+  EXPECT_NEAR(motion.by_course.begin()->second.height, 0.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace cupola::joint_speeds_test

@@ -113,11 +113,12 @@ TEST(FirstScreen, ALimitSaysWhetherTheCaseStandsAndByHowMuch) {
   e.scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
   e.scene.joints.friction = 0.4;
   e.summary.critical = CriticalValue{"friction", 0.2, 0.2, 0.2 - 1e-9};
-  e.gives_way = MechanismMotion{.joints = {.hinging = 4, .sliding = 1, .opening = 0},
-                                .hinging = 3.0,
-                                .sliding = 1.0,
-                                .parting = 0.0,
-                                .by_course = {{0, {.sliding = 1.0}}, {1, {.hinging = 3.0, .on = 0}}}};
+  e.gives_way =
+      MechanismMotion{.joints = {.hinging = 4, .sliding = 1, .opening = 0},
+                      .hinging = 3.0,
+                      .sliding = 1.0,
+                      .parting = 0.0,
+                      .by_course = {{0, {.sliding = 1.0}}, {1, {.hinging = 3.0, .height = 0.5, .on = 0}}}};
   EXPECT_EQ(verdict_words(e).words, "It stands");
   const std::string detail = margin_answer(e).detail;
   EXPECT_EQ(
@@ -355,6 +356,10 @@ TEST(FirstScreen, NamesTheLoadsBesideTheWeight) {
       << reason_for_verdict(e);
   e.last.loads.push_back({2, Vec3::Zero(), Vec3(0, 0, -4e3), PointForce::kDeadLoad});
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 56 kN in all");
+  EXPECT_EQ(weight_text(e), "40 kN");
+  e.last.gravity *= 0.25;  // as `dead_load_time` has it at that time
+  EXPECT_EQ(weight_text(e), "10 kN of 40 kN");
+  EXPECT_EQ(loads_text(e), "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 26 kN in all");
 }
 
 TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {

@@ -1,5 +1,8 @@
 // Studies of any case: groups of supports, groups of runs that do not apply, and answers of handwritten runs.
 
+#include <numbers>
+
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -27,6 +30,14 @@ Assembly cubes(const std::vector<double>& places) {
 
 TEST(SupportGroups, BlocksThatTouchSettleTogether) {
   EXPECT_EQ(support_groups(cubes({0, 1, 6, 7, 12})), (Groups{{0, 1}, {2, 3}, {4}}));
+}
+
+// Turned by 45 degrees in plan, with gaps of 0.2 m between pairs whose boxes along x and y overlap.
+TEST(SupportGroups, BlocksThatTouchAreTheSameInATurnedPlan) {
+  Assembly a = cubes({0, 1, 2.2, 3.2});
+  const Eigen::AngleAxisd turn(0.25 * std::numbers::pi, Vec3::UnitZ());
+  for (Vec3& vertex : a.vertices) vertex = turn * vertex;
+  EXPECT_EQ(support_groups(a), (Groups{{0, 1}, {2, 3}}));
 }
 
 TEST(SupportGroups, EachBlockOfARingSettlesByItself) {
