@@ -138,8 +138,10 @@ void declare_geometry(Section& s, Geometry& geometry) {
          declare_chain);
   for (size_t i = 0; i < geometry.chains.size(); ++i)
     if (geometry.chains[i].name.empty()) geometry.chains[i].name = fmt::format("chain {}", i);
-  s.number("support_width", geometry.support_width, {.unit = "m", .above = 0},
-           "distance by which the fixed base extends beyond the shell");
+  s.number(
+      "support_width", geometry.support_width, {.unit = "m", .above = 0},
+      "distance by which the fixed base extends beyond the shell, at most half-way to the stones on that of "
+      "another member");
   s.integer(
       "base_blocks", geometry.base_blocks, {.min = 1, .max = 1000},
       "equal fixed blocks into which the base of a dome or vault is divided, so that one may settle; the "

@@ -17,6 +17,7 @@
 #include "generators/stereotomy/grid_points.hpp"
 #include "generators/stereotomy/groin_vault.hpp"
 #include "generators/stereotomy/meetings.hpp"
+#include "generators/stereotomy/part_supports.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
@@ -238,6 +239,7 @@ Assembly cut_blocks(std::span<const Storey> storeys, const CutOptions& options) 
     add_storey(storey, storeys, options, &assembly);
   }
   starts.push_back({assembly.blocks.size(), assembly.parts.size()});
+  part_supports(starts, options.imperfections ? options.imperfections->gap : 0.0, &assembly);
   check_meetings(storeys, starts, &assembly);
   drop_unused_vertices(&assembly);
   CUPOLA_ASSERT(std::ranges::all_of(assembly.vertices, [](const Vec3& v) { return v.allFinite(); }));

@@ -296,6 +296,29 @@ std::string message_of(const Case& c) {
   return "";
 }
 
+// Two piers with a gap of 0.3 m, each on a support that would reach 1 m beyond it, under the other: they end
+// in the middle of the gap.
+TEST(Members, StandOnTheirOwnSupportsOnly) {
+  std::vector<Member> piers;
+  for (const char* name : {"one", "other"}) {
+    Member pier;
+    pier.name = name;
+    pier.surface = WallSurface{1.0, 2.0, 0.5};
+    pier.bond = StackBond{1, 1, 2};
+    if (!piers.empty()) pier.at = Place{{1.3, 0.0, 0.0}, 0.0};
+    piers.push_back(pier);
+  }
+  ModelReport report;
+  const Assembly assembly = check_and_report(members_case(piers), &report);
+  EXPECT_EQ(report.num_joints, 2);
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) {
+        const bool first = part.block < 2;
+        EXPECT_LE((first ? 1.0 : -1.0) * (assembly.vertices[v].x() - 1.15), 1e-12) << "block " << part.block;
+      }
+}
+
 TEST(Members, AreRefusedWithTheirNames) {
   Member low = tower("low", 10.0), wide = tower("wide", 20.0), beside = tower("beside", 10.0);
   wide.on = "low";

@@ -418,6 +418,7 @@ TEST(FirstScreen, LeadsWithThePressureOverTheStrength) {
   const double strength = 1e5;  // Pa
   for (int i = 0; i < frame.contacts.size(); ++i)
     frame.contacts.strength_use.push_back(frame.contacts.normal_force[i] / frame.contacts.area[i] / strength);
+  frame.contacts.friction_limit = frame.contacts.normal_force;
   frame.contacts.damage.assign(frame.contacts.strength_use.size(), 0.0);
   frame.contacts.crack_opening.assign(frame.contacts.strength_use.size(), 0.0);
   const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
