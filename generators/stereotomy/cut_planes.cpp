@@ -63,36 +63,45 @@ std::vector<Plane> body_of(const Cut& cut) {
 
 std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::string& key) {
   const SurfaceMap& surface = barrel.surface;
-  std::vector<Vec3> section;
-  for (int bed = 0; bed <= surface.num_rows; ++bed)
-    section.push_back(face == Cut::Face::extrados ? surface.extrados(bed, 0.0) : surface.intrados(bed, 0.0));
-  const Vec3 end = surface.intrados(0.0, surface.extent) - surface.intrados(0.0, 0.0);
-  const Vec3 along = end.normalized();
-  const double size = (section.front() - section.back()).norm();
+  std::vector<Vec3> inner, outer;  // at the first end
+  for (int bed = 0; bed <= surface.num_rows; ++bed) {
+    inner.push_back(surface.intrados(bed, 0.0));
+    outer.push_back(surface.extrados(bed, 0.0));
+  }
+  const std::vector<Vec3> section = face == Cut::Face::extrados ? outer : inner;
+  const Vec3 end = surface.intrados(0.0, surface.extent) - inner.front(), along = end.normalized();
+  const Vec3 span = section.front() - section.back(), across = along.cross(Vec3::UnitZ()).normalized();
+  const double rounding = 1e-12 * span.norm(), way = across.dot(span) > 0.0 ? 1.0 : -1.0;
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("{}.member = {}: {}", key, barrel.name, why));
+  };
+  if (std::abs(across.dot(span)) <= rounding) refuse("spans nothing, so that nothing lies under it");
   std::vector<Plane> planes;
   const auto add = [&](const Vec3& point, const Vec3& outward) {
     planes.push_back({outward, outward.dot(point)});
   };
-  const Vec3 aside = Vec3(section.front() - section.back()).cross(Vec3::UnitZ()).cross(Vec3::UnitZ());
-  const Vec3 across = -aside.normalized();
-  const double way = across.dot(section.front() - section.back()) > 0.0 ? 1.0 : -1.0;
   add(section.front(), way * across);
   add(section.back(), -way * across);
+  const Vec3 inside = 0.5 * (section.front() + section.back()) - span.norm() * Vec3::UnitZ();
   for (size_t i = 0; i + 1 < section.size(); ++i) {
     Vec3 outward = along.cross(section[i + 1] - section[i]).normalized();
-    if (outward.dot(0.5 * (section.front() + section.back()) - section[i]) > 0.0) outward = -outward;
+    if (outward.dot(inside - section[i]) > 0.0) outward = -outward;
     add(section[i], outward);
   }
-  constexpr double kRounding = 1e-12;
-  for (size_t i = 2; i < planes.size(); ++i)
-    for (const Vec3& p : section)
-      if (planes[i].normal.dot(p) - planes[i].offset > kRounding * size)
-        throw InputError(
-            fmt::format("{}.member = {}: its section is not convex about ({:.4g}, {:.4g}, {:.4g}) m, in its "
-                        "own coordinates, so that what lies under it is no convex body",
-                        key, barrel.name, section[i - 2].x(), section[i - 2].y(), section[i - 2].z()));
-  add(section.front(), -along);
-  add(section.front() + end, along);
+  for (size_t i = 0; i < planes.size(); ++i)
+    for (const Vec3& p : section) {
+      if (planes[i].normal.dot(p) - planes[i].offset <= rounding) continue;
+      const Vec3& at = i < 2 ? p : section[i - 2];
+      refuse(fmt::format(
+          "its section {} ({:.4g}, {:.4g}, {:.4g}) m, in its own coordinates, so that what lies "
+          "under it is no convex body",
+          i < 2 ? "reaches beyond its springings at" : "is not convex about", at.x(), at.y(), at.z()));
+    }
+  inner.insert(inner.end(), outer.rbegin(), outer.rend());  // a barrel may lean
+  Vec3 end_normal = polygon_plane(inner).normal;
+  if (end_normal.dot(along) < 0.0) end_normal = -end_normal;
+  add(section.front(), -end_normal);
+  add(section.front() + end, end_normal);
   return planes;
 }
 

@@ -14,7 +14,7 @@ std::vector<Plane> body_of(const Cut& cut);
 
 /// What lies under the facets of a barrel, between its two ends and down without end, in its own coordinates;
 /// above the springings between the vertical planes through them. Throws InputError that begins with `key`
-/// for a section that is not convex.
+/// for a section that is not convex or reaches beyond these planes.
 std::vector<Plane> body_under(const Storey& barrel, Cut::Face face, const std::string& key);
 
 /// What lies over the intrados of the webs of a groin vault, in its own coordinates: a body for each facet,

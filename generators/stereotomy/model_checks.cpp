@@ -115,9 +115,14 @@ std::optional<Meeting> meeting_of(const Assembly& assembly, const ConvexShape& a
   return widest;
 }
 
-/// Of two blocks of different members, which these are and where the blocks lie.
+/// Of two blocks of different members, which these are and where the blocks lie. Of one member, which of them
+/// is its support.
 std::string places_of_members(const Assembly& assembly, int a, int b) {
-  if (assembly.sheets.size() < 2) return {};
+  if (assembly.sheets.size() < 2) {
+    if (!assembly.blocks[a].fixed && !assembly.blocks[b].fixed) return {};
+    return fmt::format("; block {} is a support: reduce geometry.support_width",
+                       assembly.blocks[a].fixed ? a : b);
+  }
   const auto name = [&](int block) {
     const Sheet* sheet = assembly.sheet_of(assembly.blocks[block].ring);
     return sheet ? "the member " + sheet->name : std::string("a support");

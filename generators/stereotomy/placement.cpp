@@ -39,7 +39,7 @@ double level_of_springers(const Storey& vault, const std::string& what) {
 }
 
 /// The largest coordinate of a member along a horizontal direction of its own frame, m. A plane cut across
-/// that direction ends it.
+/// that direction ends it; a joint does not.
 double reach(const Storey& storey, const Vec3& direction) {
   const SurfaceMap& surface = storey.surface;
   double farthest = -std::numeric_limits<double>::infinity();
@@ -57,7 +57,8 @@ double reach(const Storey& storey, const Vec3& direction) {
         for (const int layer : {0, surface.num_wythes()}) include(surface.point(bed, abscissa, layer));
   }
   for (const Cut& cut : storey.cuts)
-    if (cut.kind == Cut::Kind::plane && cut.normal.normalized().dot(direction) > 1.0 - 1e-12)
+    if (cut.kind == Cut::Kind::plane && cut.as != Cut::As::joint &&
+        cut.normal.normalized().dot(direction) > 1.0 - 1e-12)
       farthest = std::min(farthest, direction.dot(cut.point));
   return farthest;
 }

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "generators/surface/profile.hpp"
+
 namespace cupola {
 namespace {
 
@@ -63,35 +65,38 @@ std::vector<double> cuts_of_blocks(const SurfaceMap& surface, const std::vector<
   return all;
 }
 
-/// The inner and the outer end of the ring at a cut, on the line of the first bed.
-std::pair<Vec3, Vec3> top_corners(const SurfaceMap& surface, double cut, double width) {
-  const Vec3 base = surface.intrados(0, cut), back = surface.extrados(0, cut);
-  const double inner = base.head<2>().norm(), inside = std::max(inner - width, inner / 2.0);
-  if (base.z() == back.z()) {
-    const Vec3 radial(base.x() / inner, base.y() / inner, 0.0), height(0.0, 0.0, base.z());
-    return {inside * radial + height, (back.head<2>().norm() + width) * radial + height};
-  }
-  const Vec3 along = (back - base) / (back - base).head<2>().norm();
-  return {base - (inner - inside) * along, back + width * along};
-}
+/// The line of the first bed at a cut, on which the ring lies, too.
+struct BedLine {
+  Vec3 base, back;                                              // m, on the intrados and on the extrados
+  Vec3 along = (back - base) / (back - base).head<2>().norm();  // of length 1 seen from above
+};
 
-/// z of the lower face of the ring, `width` below the lowest point of its top, m.
-double floor_below_bed(const SurfaceMap& surface, const std::vector<double>& cuts, double width) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const double cut : cuts) {
-    const auto [inner, outer] = top_corners(surface, cut, width);
-    lowest = std::min({lowest, inner.z(), outer.z()});
+/// m, at most `width`, by which the ring extends inwards: half-way to where the lines of two neighbours meet.
+double inner_width(const std::vector<BedLine>& lines, double width) {
+  for (size_t s = 0; s + 1 < lines.size(); ++s) {
+    const Vec2 a = lines[s].along.head<2>(), b = lines[s + 1].along.head<2>(),
+               chord = (lines[s + 1].base - lines[s].base).head<2>();
+    const double sine = cross(a, b);
+    if (sine > 0.0) width = std::min(width, 0.5 * std::min(cross(a, chord), cross(b, chord)) / sine);
   }
-  return lowest - width;
+  return width;
 }
 
 void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, int num_blocks,
               double density, Assembly* assembly) {
   const int num_slices = static_cast<int>(cuts.size()) - 1;
+  std::vector<BedLine> lines;
+  for (const double cut : cuts) lines.push_back({surface.intrados(0, cut), surface.extrados(0, cut)});
+  const double inside = inner_width(lines, width);
+  std::vector<std::pair<Vec3, Vec3>> tops;
+  double floor = std::numeric_limits<double>::infinity();
+  for (const auto& [base, back, along] : lines) {
+    tops.emplace_back(base - inside * along, back + width * along);
+    floor = std::min({floor, tops.back().first.z() - width, tops.back().second.z() - width});
+  }
   std::vector<std::array<int, 4>> corners;  // per cut: inner top, outer top, outer bottom, inner bottom
-  const double floor = floor_below_bed(surface, cuts, width);
   for (int s = 0; s < num_slices; ++s) {
-    const auto [inner, outer] = top_corners(surface, cuts[s], width);
+    const auto& [inner, outer] = tops[s];
     corners.push_back({add_vertex(inner, assembly), add_vertex(outer, assembly),
                        add_vertex({outer.x(), outer.y(), floor}, assembly),
                        add_vertex({inner.x(), inner.y(), floor}, assembly)});

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -58,11 +59,19 @@ double least_radius(const ProfilePiece& piece) {
   return least;
 }
 
-/// The part of a profile outside the eye, whose edge becomes the last bed.
-std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double eye) {
+/// The part of a profile outside the eye, whose edge becomes the last bed. A horseshoe may begin inside.
+std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double eye, double rounding) {
+  constexpr int kSteps = 200;
+  double widest = 0.0;
   for (size_t i = 0; i < pieces.size(); ++i) {
-    if (pieces[i].at(1.0).x() > eye) continue;
-    double low = 0.0, high = 1.0;
+    std::optional<double> outside;  // the first place
+    for (int k = 0; k < kSteps; ++k) {
+      const double t = k / static_cast<double>(kSteps), r = pieces[i].at(t).x();
+      widest = std::max(widest, r);
+      if (r > eye && !outside) outside = t;
+    }
+    if (!outside || pieces[i].at(1.0).x() > eye + rounding) continue;
+    double low = *outside, high = 1.0;
     for (int k = 0; k < 60; ++k) {  // to rounding
       const double middle = 0.5 * (low + high);
       (pieces[i].at(middle).x() > eye ? low : high) = middle;
@@ -71,7 +80,12 @@ std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double e
     pieces[i] = piece_up_to(pieces[i], high);
     return pieces;
   }
-  return pieces;
+  throw InputError(fmt::format("geometry.surface.eye = {}: ", eye) +
+                   (widest > eye
+                        ? fmt::format("the profile ends at r = {:.10g} m, outside the eye; leave the eye "
+                                      "out, or draw the profile up to it",
+                                      pieces.back().at(1.0).x())
+                        : fmt::format("must be below {:.6g} m, the largest r of the profile", widest)));
 }
 
 /// The part of a profile above the last place where `is_above` does not hold; empty if that is its end. A
@@ -364,7 +378,7 @@ Drawing drawing_of(const VaultSurface& vault) {
     if (drawing.mirrored) drawing.profile = with_mirror_image(std::move(drawing.profile));
     return drawing;
   }
-  if (vault.eye > 0.0) drawing.profile = outside_eye(std::move(drawing.profile), vault.eye);
+  if (vault.eye > 0.0) drawing.profile = outside_eye(std::move(drawing.profile), vault.eye, rounding);
   const Vec2 last = drawing.profile.back().at(1.0);
   if (last.x() - drawing.drawn_depth < rounding)
     throw InputError(fmt::format(

@@ -173,7 +173,7 @@ TEST(ConstantLength, IsTheNarrowingBondWhereCoursesDoNotShorten) {
                  b = cut_assembly(case_of(cylinder, narrowing));
   ASSERT_EQ(a.blocks.size(), b.blocks.size());
   for (size_t i = 0; i < a.blocks.size(); ++i) {
-    EXPECT_NEAR(a.blocks[i].volume, b.blocks[i].volume, 1e-14);
+    EXPECT_NEAR(a.blocks[i].volume / b.blocks[i].volume, 1.0, 1e-14) << "rounding, also of 60 m3 of support";
     EXPECT_LT((a.blocks[i].centroid - b.blocks[i].centroid).norm(), 1e-14);
   }
 }

@@ -241,6 +241,54 @@ TEST(Base, IsDividedIntoBlocksAboutTheCorners) {
   EXPECT_NEAR(sum / whole, 1.0, 1e-3);
 }
 
+/// A shell over a rectangle, of courses of 32 stones.
+Case over_a_rectangle(double length, double width, Profile::Kind profile, double thickness) {
+  VaultSurface hall;
+  hall.plan.kind = Plan::Kind::corners;
+  hall.plan.x = {length / 2, -length / 2, -length / 2, length / 2};
+  hall.plan.y = {width / 2, width / 2, -width / 2, -width / 2};
+  hall.profile.kind = profile;
+  hall.profile.span = width;
+  hall.profile.rise = 0.375 * width;
+  hall.profile.height = width;
+  hall.thickness = thickness;
+  if (profile != Profile::Kind::straight) hall.eye = 0.1 * width;
+  Case c;
+  c.geometry.surface = hall;
+  c.geometry.bond = RunningBond{4, 32, 2};
+  return c;
+}
+
+// The outer corners of a bed over unequal sides do not lie on the rays from the axis through the inner ones.
+TEST(Base, BearsTheWholeFirstBedOverUnequalSides) {
+  for (const double width : {0.02, 1.0, 50.0}) {
+    Case c = over_a_rectangle(12.0, 2.0, Profile::Kind::straight, 0.6);
+    c.geometry.support_width = width;
+    const Assembly assembly = generate(c);
+    const auto lies_in = [&](const Part& part, const Vec3& point) {
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+        const Plane side = polygon_plane(face_points(assembly, f));
+        if (side.normal.dot(point) - side.offset > 1e-12) return false;  // m, rounding of 50 m
+      }
+      return assembly.blocks[part.block].fixed;
+    };
+    for (const Vec3& corner : assembly.vertices)
+      EXPECT_TRUE(
+          corner.z() != 0.0 ||
+          std::ranges::any_of(assembly.parts, [&](const Part& part) { return lies_in(part, corner); }))
+          << width << " m: " << corner.transpose();
+  }
+}
+
+// On an inclined first bed; the inner edge comes near to the middle of the hall.
+TEST(Base, ReachesInwardsByOneDistance) {
+  Case small = over_a_rectangle(0.4, 0.08, Profile::Kind::segmental, 0.008),
+       wide = over_a_rectangle(20.0, 4.0, Profile::Kind::segmental, 0.4);
+  wide.geometry.support_width = 20.0;
+  EXPECT_NO_THROW(generate(small));
+  EXPECT_NO_THROW(generate(wide));
+}
+
 TEST(Drum, IsDrawnBelowTheShell) {
   const std::string map = bond_map_svg(with_windows(openings(1.2, 1.0, 1.0)).geometry);
   EXPECT_NE(map.find(">drum<"), std::string::npos);

@@ -287,6 +287,29 @@ TEST(Members, BesideEachOtherShareNoSupport) {
   }
 }
 
+// A joint takes nothing from the member in which it lies, on whichever side its normal points.
+TEST(Members, StandBesideTheEndNotBesideAJoint) {
+  Member one, other;
+  one.name = "one";
+  one.surface = WallSurface{.length = 4.0, .height = 2.0, .thickness = 0.5};
+  one.bond = RunningBond{4, 8, 2};
+  one.cuts.resize(1);
+  one.cuts[0].as = Cut::As::joint;
+  one.cuts[0].point = {2.25, 0.0, 0.0};
+  other = one;
+  other.name = "other";
+  other.cuts.clear();
+  other.beside = Beside{"one", Beside::Side::right};
+  for (const double side : {1.0, -1.0}) {
+    one.cuts[0].normal = {side, 0.0, 0.0};
+    ModelReport report;
+    const Assembly assembly = check_and_report(members_case({one, other}), &report);
+    EXPECT_EQ(assembly.sheets[1].origin.x(), 4.0);
+    EXPECT_NEAR(report.volume, 8.0, 1e-13) << "rounding of sums";
+    EXPECT_EQ(report.islands, 1);
+  }
+}
+
 std::string message_of(const Case& c) {
   try {
     generate(c);

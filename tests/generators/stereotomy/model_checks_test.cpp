@@ -91,6 +91,29 @@ TEST(ModelChecks, DetectAWarpedFace) {
   EXPECT_NE(complaint(wall).find("off the plane of its face"), std::string::npos) << complaint(wall);
 }
 
+// Above the steep springings of a horseshoe the shell overhangs its own supports.
+TEST(ModelChecks, NameTheWidthOfASupportInTheWay) {
+  VaultSurface horseshoe;
+  horseshoe.plan.kind = Plan::Kind::line;
+  horseshoe.profile.kind = Profile::Kind::horseshoe;
+  horseshoe.profile.span = 4.0;
+  horseshoe.profile.below_deg = 80.0;
+  horseshoe.thickness = 0.3;
+  Case c;
+  c.geometry.surface = horseshoe;
+  c.geometry.bond = RunningBond{8, 2, 2};
+  try {
+    generate(c);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("block 0 is a support: reduce geometry.support_width"),
+              std::string::npos)
+        << error.what();
+  }
+  c.geometry.support_width = 0.1;
+  EXPECT_NO_THROW(generate(c));
+}
+
 TEST(ModelChecks, CountIslandsAndBlocksWithoutJoint) {
   Assembly wall = cut_assembly(wall_case(4, 2));
   shift_block(&wall, 10, Vec3(0.0, 0.0, 2.0));  // a course is 1.5 m

@@ -390,7 +390,7 @@ void expect_laid_or_refused(int count, unsigned seed) {
     v.profile.haunch_radius = between(0.5, 3.0);
     v.profile.batter = between(-0.2, 0.2);
     v.line = static_cast<VaultSurface::Line>(random() % 3);
-    if (v.plan.closed()) v.eye = between(0.5, 2.0);
+    if (v.plan.closed() && v.profile.kind != Kind::straight) v.eye = between(0.5, 2.0);
     if (v.plan.kind == Plan::Kind::polygon && random() % 2 == 0) v.beds = VaultSurface::Beds::conical;
     if (v.plan.kind == Plan::Kind::groin) v.eye = 0.0;
     if (v.plan.kind != Plan::Kind::groin && random() % 4 == 0) {

@@ -1,0 +1,73 @@
+// The eye of a vault over a closed plan: where its last bed lies, and what is refused.
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/surface/make_surface.hpp"
+
+namespace cupola::eye_test {
+namespace {
+
+VaultSurface vault(Profile::Kind profile, double eye) {
+  VaultSurface v;
+  v.profile.kind = profile;
+  v.profile.span = 4.0;
+  v.profile.height = 3.0;
+  v.thickness = 0.3;
+  v.eye = eye;
+  return v;
+}
+
+std::string refusal(const VaultSurface& surface) {
+  try {
+    make_surface(surface, 4);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void expect_part(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+TEST(Eye, LiesInsideTheSpringing) {
+  for (const double eye : {2.0, 2.5})
+    expect_part(refusal(vault(Profile::Kind::semicircle, eye)),
+                "must be below 2 m, the largest r of the profile");
+  expect_part(refusal(vault(Profile::Kind::semicircle, 2.5)), "geometry.surface.eye = 2.5: ");
+}
+
+TEST(Eye, LiesOnTheProfile) {
+  VaultSurface leaning = vault(Profile::Kind::straight, 1.0);
+  leaning.profile.batter = 0.2;
+  expect_part(refusal(leaning), "geometry.surface.eye = 1: the profile ends at r = 1.4 m");
+  VaultSurface closed = vault(Profile::Kind::chain, 0.5);
+  closed.profile.points = {{2.0, 1.5, 1.0}, {0.0, 1.0, 1.3}, {}, {}};
+  closed.key_stone = true;
+  expect_part(refusal(closed), "geometry.surface.eye = 0.5: the profile ends at r = 1 m");
+}
+
+// An arc whose end is computed may end a little outside.
+TEST(Eye, MayBeTheEndOfTheProfile) {
+  VaultSurface ends = vault(Profile::Kind::chain, 0.7);
+  ends.profile.points = {{2.0, 0.7}, {0.0, 1.3}, {2.2}, {}};
+  EXPECT_NEAR(make_surface(ends, 4).intrados(4, 0.0).x(), 0.7, 1e-15);
+}
+
+// A horseshoe of 80 degrees springs at r = 0.35 m and is widest at 2 m, above that.
+TEST(Eye, OfAHorseshoeMayBeWiderThanItsSpringing) {
+  for (const double eye : {0.1, 1.0, 1.998}) {
+    VaultSurface horseshoe = vault(Profile::Kind::horseshoe, eye);
+    horseshoe.profile.below_deg = 80.0;
+    horseshoe.thickness = 0.1;
+    const SurfaceMap map = make_surface(horseshoe, 16);
+    EXPECT_NEAR(map.intrados(16, 0.0).x(), eye, 1e-14) << "bisected to rounding";
+    EXPECT_GT(map.intrados(16, 0.0).z(), 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace cupola::eye_test
