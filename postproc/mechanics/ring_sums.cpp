@@ -134,7 +134,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
     const int below = carried == joint.block_a ? joint.block_b : joint.block_a;
-    if (assembly.blocks[below].fixed)
+    if (ring_above_support(assembly.blocks[below]) < assembly.stack_of(k).first)
       ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
