@@ -82,8 +82,8 @@ std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double e
   }
   throw InputError(fmt::format("geometry.surface.eye = {}: ", eye) +
                    (widest > eye
-                        ? fmt::format("the profile ends at r = {:.10g} m, outside the eye; leave the eye "
-                                      "out, or draw the profile up to it",
+                        ? fmt::format("the profile ends at r = {:.10g} m, outside the eye; give that r, or "
+                                      "draw the profile up to the eye",
                                       pieces.back().at(1.0).x())
                         : fmt::format("must be below {:.6g} m, the largest r of the profile", widest)));
 }
