@@ -74,10 +74,12 @@ void declare_compliance(Section& s, Compliance& compliance) {
                        Compliance::default_per(Compliance::Per::point).*value,
                        Compliance::default_per(Compliance::Per::area).*value);
   };
-  s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0}, "normal displacement per unit force",
+  s.number("normal", compliance.normal, {.unit = "m/N, m3/N", .min = 0},
+           "normal displacement per unit force; 0 counts as 1e-4 of the tangential one",
            defaults(&Compliance::normal));
   s.number("tangential", compliance.tangential, {.unit = "m/N, m3/N", .min = 0},
-           "tangential displacement per unit force", defaults(&Compliance::tangential));
+           "tangential displacement per unit force; 0 counts as 1e-4 of the normal one",
+           defaults(&Compliance::tangential));
   expect_compliance(s, "normal", compliance.normal, compliance.per);
   expect_compliance(s, "tangential", compliance.tangential, compliance.per);
 }

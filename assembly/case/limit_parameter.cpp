@@ -69,8 +69,9 @@ Case case_at(const Case& scene, double value) {
     case LimitSearch::Parameter::lantern:
       at.loads.lantern = TopLoad{value};
       break;
-    case LimitSearch::Parameter::spread:
-      for (SupportMove& move : at.supports.moves) move.time = TableInTime{"", {0.0, 1e6}, {0.0, 1e6}};
+    case LimitSearch::Parameter::spread:  // 0 is a point, so that values above it keep their digits
+      for (SupportMove& move : at.supports.moves)
+        move.time = TableInTime{"", {-1e6, 0.0, 1e6}, {-1e6, 0.0, 1e6}};
       break;
   }
   return at;

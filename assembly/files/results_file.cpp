@@ -150,7 +150,7 @@ TieTable read_ties(const Mesh& mesh) {
 }
 
 /// Joint and block numbers are used as indices by later stages: they must be in range.
-void check_frame(const Frame& frame, const std::string& path) {
+void check_contacts(const Frame& frame, const std::string& path) {
   const int num_blocks = frame.blocks.size();
   for (int i = 0; i < frame.contacts.size(); ++i) {
     const int a = frame.contacts.block_a[i];
@@ -165,12 +165,21 @@ void check_frame(const Frame& frame, const std::string& path) {
     if (!frame.contacts.force[i].allFinite() || !frame.contacts.point[i].allFinite())
       throw InputError(FileLocation{path}, fmt::format("contact {} is not finite", i));
   }
+}
+
+/// The same of ties. A restraint begins at the first fixed block, whatever the number of the block it holds.
+void check_ties(const Frame& frame, const std::string& path) {
   const TieTable& ties = frame.ties;
-  for (int i = 0; i < ties.size(); ++i)
-    if (ties.block_a[i] < 0 || ties.block_b[i] <= ties.block_a[i] || ties.block_b[i] >= num_blocks ||
-        ties.chain[i] < -1 || !std::isfinite(ties.force[i]) || !ties.point_a[i].allFinite() ||
-        !ties.point_b[i].allFinite())
-      throw InputError(FileLocation{path}, fmt::format("tie {} is invalid", i));
+  const auto is_block = [&frame](int block) { return 0 <= block && block < frame.blocks.size(); };
+  for (int i = 0; i < ties.size(); ++i) {
+    const int a = ties.block_a[i], b = ties.block_b[i];
+    if (!is_block(a) || !is_block(b) || a == b || ties.chain[i] < -1)
+      throw InputError(
+          FileLocation{path},
+          fmt::format("tie {} between blocks {} and {} of chain {} is invalid", i, a, b, ties.chain[i]));
+    if (!std::isfinite(ties.force[i]) || !ties.point_a[i].allFinite() || !ties.point_b[i].allFinite())
+      throw InputError(FileLocation{path}, fmt::format("tie {} is not finite", i));
+  }
 }
 
 constexpr const char* kInterrupted = "interrupted.json";
@@ -321,7 +330,8 @@ Frame ResultsReader::read_frame(int index) const {
   frame.blocks = read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), run));
   const std::string ties_path = in_folder(folder_, frame_file("ties", index));
   if (std::filesystem::exists(ties_path)) frame.ties = read_ties(read_frame_mesh(ties_path, run));
-  check_frame(frame, contacts_path);
+  check_contacts(frame, contacts_path);
+  check_ties(frame, ties_path);
   if (contacts.field<std::int32_t>("format_version") == kFrameFormatVersion)
     read_role(contacts, &frame);
   else

@@ -25,8 +25,7 @@ double tie_energy(const Model& model, const State& state, const ContactMemories&
   double energy = 0.0;
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const double yielded = memories.ties.empty() ? 0.0 : memories.ties[k].yielded;
-    const double stretch =
-        std::min(0.0, tie_geometry(model.ties[k], state.poses, state.ground).gap + yielded);
+    const double stretch = std::min(0.0, tie_gap(model, state, k) + yielded);
     energy += 0.5 * stretch * stretch / model.ties[k].compliance;
   }
   return energy;

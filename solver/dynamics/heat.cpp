@@ -71,8 +71,9 @@ Vec3 HeatedBlocks::displacement(int block, const Pose& pose, const Vec3& point, 
 }
 
 Vec3 HeatedBlocks::separation(const std::vector<Pose>& poses, const Contact& contact, double time) const {
-  return displacement(contact.block_b, poses[contact.block_b], contact.point_b, time) -
-         displacement(contact.block_a, poses[contact.block_a], contact.point_a, time);
+  const Vec3 b = displacement(contact.block_b, poses[contact.block_b], contact.point_b, time);
+  if (contact.block_a < 0) return b;
+  return b - displacement(contact.block_a, poses[contact.block_a], contact.point_a, time);
 }
 
 ContactSet HeatedBlocks::heated(ContactSet contacts, const std::vector<Pose>& poses, double time) const {

@@ -29,7 +29,8 @@ class HeatedBlocks {
   HeatedBlocks(const Case& scene, const Assembly& assembly);
 
   bool empty() const { return of_block_.empty(); }
-  /// m, world, by which the point b of a contact moves away from its point a at `time` (s).
+  /// m, world, by which the point b of a contact, or of a tie, moves away from its point a at `time` (s). What
+  /// belongs to no block (-1), stays.
   Vec3 separation(const std::vector<Pose>& poses, const Contact& contact, double time) const;
   /// The same at the start of a step.
   Vec3 separation_before(const std::vector<Pose>& poses, const Contact& contact, double time) const {

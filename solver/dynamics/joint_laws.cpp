@@ -57,6 +57,18 @@ const std::optional<JointLawChange>& change_of(const Joints& joints, JointClass 
   return none;
 }
 
+/// A joint that gives way only across, or only along, gives way the other way by a ten-thousandth of that.
+/// A rigid contact is judged and regularised by the inertia of its blocks, which in the long steps of statics
+/// hides errors as large as the displacements of the spring beside it.
+void soften_half_rigid(JointLaw* law) {
+  constexpr double kShare = 1e-4;
+  double &normal = law->compliance_normal, &tangential = law->compliance_tangential;
+  if (normal == 0.0)
+    normal = kShare * tangential;
+  else if (tangential == 0.0)
+    tangential = kShare * normal;
+}
+
 JointStrength times(const JointStrength& strength, double area) {
   return {area * strength.tension, area * strength.cohesion, area * strength.compression};
 }
@@ -133,6 +145,7 @@ JointTable::JointTable(const Joints& joints, int num_rings)
     }
     for (ClassLaw& joint : rings) {
       joint.law.crack = crack_lengths(joint, joints.failure);
+      soften_half_rigid(&joint.law);
       laws_[k].push_back(joint.law);
     }
   }

@@ -160,6 +160,13 @@ JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact
   return law;
 }
 
+double tie_gap(const Model& model, const State& state, size_t k) {
+  const TieGeometry now = tie_geometry(model.ties[k], state.poses, state.ground);
+  if (model.heat.empty()) return now.gap;
+  const Contact ends = as_contact(model.ties[k], now);
+  return now.gap + now.normal.dot(model.heat.separation_before(state.poses, ends, state.time));
+}
+
 double largest_speed(const VecX& v) {
   double speed = 0.0;
   for (Eigen::Index i = 0; i < v.size(); i += 6) speed = std::max(speed, v.segment<3>(i).norm());

@@ -94,6 +94,9 @@ void integrate_positions(const Model& model, double h, double time_advance, cons
 /// Friction at `time` (s) and compliance of one contact point.
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time);
 
+/// Gap of tie k, m: positive when slack, without plastic elongation. Heat has moved its ends.
+double tie_gap(const Model& model, const State& state, size_t k);
+
 /// Largest speed of a free block's centroid, m/s.
 double largest_speed(const VecX& v);
 

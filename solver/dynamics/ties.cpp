@@ -119,6 +119,17 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses, const V
   return geometry;
 }
 
+Contact as_contact(const Tie& tie, const TieGeometry& now) {
+  Contact contact;
+  contact.block_a = tie.is_restraint() ? -1 : tie.block_a;
+  contact.block_b = tie.block_b;
+  contact.point_a = now.point_a;
+  contact.point_b = now.point_b;
+  contact.normal = now.normal;
+  contact.gap = now.gap;
+  return contact;
+}
+
 std::vector<Tie> make_ties(const Case& scene, const Assembly& assembly) {
   std::vector<Tie> ties;
   for (size_t i = 0; i < scene.ties.pairs.size(); ++i)

@@ -40,6 +40,9 @@ struct TieGeometry {
 /// `ground`: its displacement (m), which the poses contain.
 TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses, const Vec3& ground);
 
+/// The ends of a tie as the points of a contact. Restraints reach from the ground, which is no block.
+Contact as_contact(const Tie& tie, const TieGeometry& now);
+
 /// The ties of the case and of the assembly, and its restraints, which end on the first fixed block. A rigid
 /// rod gives a tie and a strut. Throws InputError for blocks that do not exist, for ends that coincide, and
 /// for restraints of fixed blocks or without one.

@@ -166,7 +166,7 @@ void set_tie_laws(const Model& model, const State& state, const ContactMemories&
     const int row = first_row + static_cast<int>(k);
     problem->E.segment<3>(3 * row).setConstant(tie.compliance / (options.h * h_alpha));
     const double yielded = memories.ties.empty() ? 0.0 : memories.ties[k].yielded;
-    const double gap = tie_geometry(tie, state.poses, state.ground).gap + yielded;
+    const double gap = tie_gap(model, state, k) + yielded;
     problem->b[3 * row] = gap / options.reach_of(gap, 0.0);
     if (std::isfinite(tie.yield_force)) problem->strength[row].compression = options.h * tie.yield_force;
   }
@@ -208,16 +208,19 @@ void add_support_velocities(const Model& model, const State& state, const Contac
   }
 }
 
-/// Adds the velocities at which the heated faces of a contact separate, at the end of the step: over reach().
+/// Adds the velocities at which the heated faces of a contact, or ends of a tie, separate, at the end of the
+/// step: over reach().
 void add_expansion(const Model& model, const State& state, const ContactSet& contacts,
                    const StepOptions& options, StepProblem* step) {
-  for (int i = 0; i < step->num_contacts; ++i) {
-    const Contact& contact = contacts.points[i];
+  int row = 0;
+  const auto add = [&](const Contact& contact) {
     const Vec3 change = model.heat.separation(state.poses, contact, state.time + options.advance()) -
                         model.heat.separation_before(state.poses, contact, state.time);
-    step->support_velocity.segment<3>(3 * i) +=
+    step->support_velocity.segment<3>(3 * row++) +=
         contact_frame(contact.normal).transpose() * change / options.reach();
-  }
+  };
+  for (const Contact& contact : contacts.points) add(contact);
+  for (const Tie& tie : model.ties) add(as_contact(tie, tie_geometry(tie, state.poses, state.ground)));
 }
 
 }  // namespace

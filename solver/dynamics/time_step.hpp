@@ -39,7 +39,7 @@ struct StepOptions {
 /// The contact problem of one step. The rows of the contacts come first, followed by three rows per tie.
 struct StepProblem {
   ContactProblem problem;
-  /// m/s: D_s^T v_s, and the separation of the heated faces of a contact over `reach`; included in problem.b
+  /// m/s: D_s^T v_s, and the separation of heated faces and ends of ties over `reach`; included in problem.b
   /// (3 (nc + number of ties); empty: none)
   VecX support_velocity;
   double reach = 0.0;    ///< s, StepOptions::reach()

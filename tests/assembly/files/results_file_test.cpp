@@ -48,8 +48,8 @@ Frame two_block_frame(double time) {
   for (int i = 0; i < 2 && time > 0.0; ++i) {  // ties of a later stage
     TieTable& t = frame.ties;
     t.chain.push_back(i - 1);
-    t.block_a.push_back(i);
-    t.block_b.push_back(2);
+    t.block_a.push_back(2 * i);  // the second is a restraint, of a block before the supports
+    t.block_b.push_back(2 - i);
     t.point_a.emplace_back(0.1 * i, 1.0 / 3.0, time);
     t.point_b.emplace_back(0.2, 1.0 / 7.0 * i, time);
     t.force.push_back(1e5 / 3.0);
@@ -299,6 +299,24 @@ TEST(ResultsFile, ErrorsNameInvalidContacts) {
   EXPECT_NE(error_of("order", [](ContactTable* c) { c->block_a[1] = 1; }), "");
   EXPECT_NE(error_of("joint", [](ContactTable* c) { c->joint[1] = 1 << 30; }), "");
   EXPECT_NE(error_of("nan", [](ContactTable* c) { c->force[1].x() = std::nan(""); }), "");
+}
+
+TEST(ResultsFile, ErrorsNameInvalidTies) {
+  const auto error_of = [](const std::string& name, const std::function<void(TieTable*)>& change) {
+    const std::string folder = test::fresh_folder(name);
+    ResultsWriter writer(folder, example_summary().assembly_hash);
+    Frame frame = two_block_frame(1.0);
+    change(&frame.ties);
+    writer.write_frame(frame);
+    writer.write_summary(example_summary());
+    return open_error(folder, example_summary().assembly_hash);
+  };
+  EXPECT_EQ(error_of("no_tie_wrong", [](TieTable*) {}), "");
+  const std::string beyond = error_of("tie_block", [](TieTable* t) { t->block_a[1] = 3; });
+  EXPECT_NE(beyond.find("ties_0000.vtp: error: tie 1 between blocks 3 and 1 "), std::string::npos) << beyond;
+  EXPECT_NE(error_of("tie_below", [](TieTable* t) { t->block_b[0] = -1; }), "");
+  EXPECT_NE(error_of("tie_of_one", [](TieTable* t) { t->block_b[1] = 2; }), "");
+  EXPECT_NE(error_of("tie_nan", [](TieTable* t) { t->force[0] = std::nan(""); }), "");
 }
 
 TEST(ResultsFile, ANewRunRemovesTheOldSummary) {

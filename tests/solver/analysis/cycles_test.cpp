@@ -1,8 +1,10 @@
-// Cracks that close again and cracks that grow over cycles, and heat in a held arch and in motions.
+// Cracks that close again and cracks that grow over cycles, and heat in a held arch, of the ends of ties and
+// in motions.
 #include <cmath>
 #include <numbers>
 
 #include "solver/dynamics/scene_options.hpp"
+#include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/analysis/path_run.hpp"
 
 namespace cupola::cycles_test {
@@ -192,6 +194,100 @@ TEST(Heat, InAMotionPushesByTheComplianceOfTheJoints) {
   run_dynamic(scene, held, sinks);
   const double expected = kStrain * 0.5 * 0.8 / (2 * 1e-9);
   EXPECT_NEAR(force, expected, 1e-6 * expected);
+}
+
+constexpr double kTie = 1e6;  // N/m
+
+PairTie tie_between(int a, const Vec3& point_a, int b, const Vec3& point_b) {
+  PairTie tie;
+  tie.block_a = BlockRef{a};
+  tie.point_a = point_a;
+  tie.block_b = BlockRef{b};
+  tie.point_b = point_b;
+  tie.stiffness = kTie;
+  return tie;
+}
+
+/// Forces of the ties of warm blocks, N: in statics, or at the end of a path of two steps.
+std::vector<double> forces_of_ties(Case scene, const Assembly& assembly, bool along_path) {
+  scene.joints.compliance = {1e-12, 1e-12, Compliance::Per::area};
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  scene.analysis.tolerance = 1e-9;
+  std::vector<double> forces;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { forces = frame.ties.force; };
+  if (!along_path) {
+    scene.analysis.type = AnalysisType::static_;
+    run_static(scene, assembly, sinks);
+    return forces;
+  }
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.path.steps = 2;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
+  scene.loads.heat[0].time = RampInTime{};
+  const PathResult path = run(scene, assembly);
+  return path.frames.empty() ? forces : path.frames.back().ties.force;
+}
+
+// Ends of ties move with the points of their blocks: the tie takes the strain times the length between them,
+// whatever the size of the blocks.
+TEST(Heat, StretchesATieByTheStrainOfTheMasonryBetweenItsEnds) {
+  const double tolerance = 1e-3;  // of a tie at a slope: its end turns by the strain
+  const Assembly pair = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {9, 9, 1}, .fixed = true},
+                                             {.center = {-1, 0, 0.5}, .size = {2, 1, 1}},
+                                             {.center = {1, 0, 0.5}, .size = {2, 1, 1}}});
+  Case clamped = testing::make_case(0.5, 0.0, 0.01);
+  clamped.joints.base = JointLawChange{};
+  clamped.joints.base->friction = 0.0;
+  clamped.loads.heat = {warmth({})};
+  clamped.ties.pairs = {tie_between(1, {-0.1, 0, 0.5}, 2, {0.1, 0, 0.5})};
+  const Assembly beam = testing::make_boxes({{.center = {-5, 0, -0.5}, .size = {2, 1, 1}, .fixed = true},
+                                             {.center = {0, 0, 0.2}, .size = {12, 1, 0.4}},
+                                             {.center = {5, 0, -0.5}, .size = {2, 1, 1}, .fixed = true}});
+  const Vec3 far(-5, 0.4, -0.2), near(5.9, 0.4, -0.2), end(5, 0.4, 0.2);
+  Case with_ground = testing::make_case(0.5, 0.0, 0.01);
+  with_ground.loads.heat = {warmth({})};
+  with_ground.loads.heat[0].ground = true;
+  with_ground.ties.pairs = {tie_between(0, far, 1, end), tie_between(2, near, 1, end)};
+  for (const bool along_path : {false, true}) {
+    const std::vector<double> clamp = forces_of_ties(clamped, pair, along_path);
+    ASSERT_EQ(clamp.size(), 1u);
+    EXPECT_NEAR(clamp[0], kTie * kStrain * 0.2, tolerance * kTie * kStrain * 0.2);
+    const std::vector<double> forces = forces_of_ties(with_ground, beam, along_path);
+    ASSERT_EQ(forces.size(), 2u);
+    const double length[] = {(end - far).norm(), (end - near).norm()};
+    for (const int k : {0, 1})
+      EXPECT_NEAR(forces[k], kTie * kStrain * length[k], tolerance * kTie * kStrain * length[k]) << k;
+  }
+}
+
+// A cube of 1 m rises at its top by all of its strain, against the ground, which stays. It compresses its bed
+// by 1e-5 of that.
+TEST(Heat, PressesAHeldPointByTheStrainBelowIt) {
+  const Assembly cube = testing::box_on_floor({1, 1, 1});
+  Case scene = testing::make_case(0.5, 0.0, 0.01);
+  scene.loads.heat = {warmth({})};
+  scene.supports.restraints = {{BlockRef{1}, Vec3(0, 0, 1), Vec3::UnitZ(), kTie}};
+  for (const bool along_path : {false, true}) {
+    const std::vector<double> forces = forces_of_ties(scene, cube, along_path);
+    ASSERT_EQ(forces.size(), 2u) << "a tie and a strut";
+    EXPECT_NEAR(forces[0], kTie * kStrain, 1e-4 * kTie * kStrain);
+    EXPECT_NEAR(forces[1], 0.0, 1e-6 * kTie * kStrain);
+  }
+}
+
+// The top of a hanging cube rises by the strain of half its height, and its centroid comes to rest as much
+// lower. The account of energy closes in every step.
+TEST(Heat, InAMotionLowersAHangingCube) {
+  const Assembly hanging = testing::make_boxes(
+      {{.center = {0, 0, 3}, .size = {4, 4, 1}, .fixed = true}, {.center = {0, 0, 1}, .size = {1, 1, 1}}});
+  Case scene = testing::make_case(0.5, 1e-8, 0.01);
+  scene.loads.heat = {warmth(RampInTime{})};
+  scene.ties.pairs = {tie_between(0, {0, 0, 2.5}, 1, {0, 0, 1.5})};
+  testing::AccountedSimulation simulation(scene, hanging);
+  for (int step = 0; step < 500; ++step) simulation.advance();
+  const double expected = 1.0 - 1000.0 * testing::kG / kTie - 0.5 * kStrain;
+  EXPECT_NEAR(simulation.state().poses[1].p_WB.z(), expected, 1e-4 * kStrain);
 }
 
 }  // namespace

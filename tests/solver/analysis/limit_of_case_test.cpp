@@ -50,6 +50,24 @@ TEST(LimitOfCase, StandsWhereASpreadDoesThroughout) {
   expect(scene, block(), Status::stable, "the structure stands up to the end of the bracket, 2; widen");
 }
 
+// Factors below 0 withdraw the support, of whose bearing of 0.2 m they use up 0.7, or 0.14. On the other one,
+// which bears more, the lintel stays.
+TEST(LimitOfCase, ASpreadByNegativeFactorsIsThatOfTheOppositeMotion) {
+  const Assembly lintel =
+      testing::make_boxes({{.center = {-0.5, 0, -0.25}, .size = {1, 1, 0.5}, .fixed = true},
+                           {.center = {2.5, 0, -0.25}, .size = {1, 1, 0.5}, .fixed = true},
+                           {.center = {0.6, 0, 0.2}, .size = {3.2, 1, 0.4}}});
+  Case scene = limit_case(Parameter::spread, -0.7, -0.6, 0.6);
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  SupportMove move;
+  move.region.blocks = {1};
+  move.displacement = Vec3(-1, 0, 0);
+  scene.supports.moves = {move};
+  expect(scene, lintel, Status::unconverged, "moving at the start of the bracket, -0.7");
+  scene.supports.moves[0].displacement = Vec3(-0.2, 0, 0);
+  expect(scene, lintel, Status::stable, "the structure stands up to the end of the bracket, -0.6");
+}
+
 // The loads are not linear in the angle where a force stays as it is: in between it could move.
 TEST(LimitOfCase, ATiltBesideAForceIsNoInterval) {
   expect(pushed(limit_case(Parameter::tilt, 0.0, 1.0, 0.3)), block(), Status::stable,

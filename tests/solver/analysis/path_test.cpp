@@ -102,9 +102,21 @@ TEST(Path, ChoosesItsControl) {
     EXPECT_NE(chosen.summary.message.find("chosen, along (0, "), std::string::npos) << chosen.summary.message;
     EXPECT_EQ(named.summary.message.find("chosen"), std::string::npos) << named.summary.message;
   }
-  Case still = couplet_case(4);
-  still.analysis.path.control.reset();
-  EXPECT_THROW(run(still, assembly), InputError);
+  // What turns about its centroid changes with time, but points nowhere.
+  Case still = couplet_case(4), turned = couplet_case(4);
+  turned.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
+                                   .rotation_deg = {0, 0.01, 0},
+                                   .pivot = {0, 0, 0.5},
+                                   .time = RampInTime{}});
+  for (Case* scene : {&still, &turned}) {
+    scene->analysis.path.control.reset();
+    try {
+      run(*scene, assembly);
+      ADD_FAILURE() << "no control was missed";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("moves by its centroid"), std::string::npos) << error.what();
+    }
+  }
 }
 
 // What the floor bears by the joint and by a rod to the upper block, and what the support above bears, balance
