@@ -63,11 +63,9 @@ LengthControl path_control(const LoadPath& options, const Model& model) {
     if (largest.block < 0) largest = largest_change_of_load(model, options.end);
     if (largest.block < 0)
       throw InputError(
-          "analysis.path.control is missing, and no support moves by its centroid and no sum of the forces "
-          "on a "
-          "block changes with time, from which it would follow (turns, moments and heat give no direction): "
-          "name "
-          "a block, for example {block: 3, direction: [1, 0, 0]}");
+          "analysis.path.control is missing, and nothing from which it would follow changes with time, "
+          "neither the centroid of a support nor the sum of the forces on a block (turns, moments and heat "
+          "give no direction): name a block, for example {block: 3, direction: [1, 0, 0]}");
     control.block = largest.block;
     control.direction = largest.vector.normalized();
     return control;
