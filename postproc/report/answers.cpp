@@ -126,6 +126,13 @@ KeyNumber end_of_path(const Evaluation& e) {
           fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
 }
 
+/// What a search over directions leaves open; "" if it has decided all.
+std::string undecided_text(int sought, int decided) {
+  if (decided >= sought) return "";
+  return fmt::format("; {} of {} {} undecided and may be weaker", sought - decided, sought,
+                     sought - decided == 1 ? "is" : "are");
+}
+
 bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
@@ -181,8 +188,9 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (const auto& robust = e.summary.robustness)
     return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
             robust->acceleration_g > 0.0
-                ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees",
-                              robust->directions, robust->azimuth_deg)
+                ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees{}",
+                              robust->directions, robust->azimuth_deg,
+                              undecided_text(e.scene.analysis.robustness, robust->directions))
                 : fmt::format("any push towards {:.4g} degrees makes it move", robust->azimuth_deg)};
   if (e.scene.analysis.robustness > 0 && at_rest(e) && !e.summary.parts.empty())
     return {"Horizontal acceleration", "not computed", "not all parts stand"};
