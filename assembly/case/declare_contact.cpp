@@ -17,7 +17,7 @@ void declare_contact(Section& s, ContactDetection& contact) {
   s.integer(
       "subdivide", contact.subdivide, {.min = 1, .max = 64},
       "compliance per area: cut each joint into this number squared of pieces with contact points each; "
-      "joints with strength need 2 or more");
+      "joints with compressive strength need 2 or more, doubled until the answer stays (docs/strength.md)");
   ContactDetection::Perturbation& gjk = contact.perturbation;
   s.integer("perturbations", gjk.perturbations, {.min = 1, .max = 10000},
             "perturbed_gjk: queries per pair of parts");

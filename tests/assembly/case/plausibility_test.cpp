@@ -80,6 +80,15 @@ const std::vector<Mistake> kMistakes = {
      {"joints.tension=1e4", "joints.failure=softening", "joints.fracture_energy={tension: 0.01, shear: 100}",
       "analysis={type: dynamic}"},
      "joints.fracture_energy.tension = 0.01 N/m: 0.1 to 100000 N/m expected; in N/mm?"},
+    {"arch",
+     {"joints.compliance={per: area}", "joints.compressive_strength=2.5e6"},
+     "contact.subdivide is not given: an undivided joint with compressive strength is up to 20 % too strong"},
+    {"arch",
+     {"joints.compliance={per: area}", "joints.bed.compressive_strength=2.5e6"},
+     "contact.subdivide is not given: "},
+    {"arch",
+     {"joints.compliance={per: area}", "joints.rings=[{from: 3, compressive_strength: 2.5e6}]"},
+     "contact.subdivide is not given: "},
     {"dome_circular",
      {"loads.gravity=[0, 0, 9.81]"},
      "loads.gravity (z) = 9.81 m/s2: at most 0 m/s2 expected; upward?"},
@@ -116,6 +125,13 @@ TEST(ImplausibleValues, EveryMistakeGivesOneWarningWithItsCause) {
     EXPECT_TRUE(scene.warnings.front().starts_with(mistake.sentence)) << scene.warnings.front();
     EXPECT_NE(scene.warnings.front().find(';'), std::string::npos) << "the likely cause is missing";
   }
+}
+
+// Whoever writes 1 asks for it.
+TEST(ImplausibleValues, UndividedJointsThatTheCaseAsksForAreNone) {
+  EXPECT_TRUE(
+      read_case(bundled_folder() + "/arch.yaml", {"joints.compressive_strength=2.5e6", "contact.subdivide=1"})
+          .warnings.empty());
 }
 
 TEST(ImplausibleValues, AccelerogramsInOtherUnits) {
