@@ -137,6 +137,15 @@ bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
 
+/// A static analysis takes loads and supports as they are at the time 0: its cracks are not those of supports
+/// that move later.
+bool supports_have_not_moved(const Evaluation& e) {
+  return e.summary.analysis == AnalysisType::static_ &&
+         std::ranges::any_of(e.scene.supports.moves, [](const SupportMove& move) {
+           return varies(move.time) && factor_at(move.time, 0.0) == 0.0;
+         });
+}
+
 /// ", the widest 25 as 12 cracks over 14 m, none through the shell": hairlines form no crack.
 std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
   if (cracks.empty()) return "";
@@ -220,6 +229,8 @@ KeyNumber margin_answer(const Evaluation& e) {
 std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   const bool rigid = is_limit(e) || !e.summary.ranges.empty();
   if (!at_rest(e) || rigid) return std::nullopt;
+  if (supports_have_not_moved(e))
+    return KeyNumber{"Widest crack", "not computed", "the supports move in time, and here they have not"};
   const std::vector<Crack>& cracks = e.joint_cracks;
   if (cracks.empty())
     return KeyNumber{

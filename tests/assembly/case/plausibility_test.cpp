@@ -222,14 +222,19 @@ TEST(UnusedTimes, AreNamedWithTheirFactor) {
   };
   const std::string ramp = "supports.moves=[{blocks: [0], displacement: [5e-3, 0, 0], time: {type: ramp}}]";
   const std::string wave = "loads.dead_load_time={type: harmonic, phase_deg: 90}";
-  EXPECT_EQ(
-      warnings({"analysis={type: static}", ramp}),
-      std::vector<std::string>{"supports.moves[0].time = 0 at the time 0, which is all that analysis.type: "
-                               "static uses; leave this out for the full value, or use type: path"});
-  const std::vector<std::string> both = warnings({"analysis={type: static}", ramp, wave});
-  ASSERT_EQ(both.size(), 1u);
-  EXPECT_TRUE(both[0].starts_with("supports.moves[0].time = 0, loads.dead_load_time = 1 at the time 0,"))
-      << both[0];
+  const std::vector<std::string> moves = warnings({"analysis={type: static}", ramp});
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_TRUE(moves[0].starts_with(
+      "supports.moves[0].time = 0 at the time 0: analysis.type: static leaves the rest of "
+      "this movement out, and answers for the geometry as built;"))
+      << moves[0];
+  const std::vector<std::string> both =
+      warnings({"analysis={type: static}", ramp, wave, "joints.friction_time={type: ramp, from: 1, to: 2}"});
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0], moves[0]);
+  EXPECT_EQ(both[1],
+            "loads.dead_load_time = 1, joints.friction_time = 1 at the time 0, which is all that "
+            "analysis.type: static uses; leave this out for the full value, or use type: path");
   const std::vector<std::string> one =
       warnings({"analysis={type: range, range: {quantities: [thrust]}}", wave});
   ASSERT_EQ(one.size(), 1u);
