@@ -47,7 +47,8 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.choice(
       "parameter", limit.parameter,
       "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); horizontal "
-      "acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell thickness about "
+      "acceleration (g); factor on loads.forces and loads.faces, but no fill (load); factor on the shell "
+      "thickness about "
       "its middle surface; factor on supports.moves (spread; take Coulomb's law where joints slide: the "
       "associated law lifts what slides); factor on the extent of every joint about its "
       "centroid (direct only), whose inverse is the geometric safety of the safest state; weight of the "
