@@ -59,9 +59,11 @@ void declare_limit(Section& s, LimitSearch& limit) {
            "one static solve per value; automatic: direct where it applies");
   const bool scales = limit.parameter == Parameter::thickness || limit.parameter == Parameter::joint_extent;
   if (scales) limit.low = 0.01;
+  if (limit.parameter == Parameter::tilt) limit.high = 90.0;
   s.number("low", limit.low, {}, "lower end of the initial bracket; not used by peak_stress",
            "0; thickness, joint_extent: 0.01");
-  s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress");
+  s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress",
+           "1; tilt: 90");
   s.optional_number("relative_width", limit.relative_width, {.above = 0, .below = 1},
                     "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-5",
                     "largest width of the final bracket over its middle value");
@@ -87,7 +89,7 @@ void declare_control(Section& s, LoadPath::Control& control) {
 }
 
 void declare_path(Section& s, LoadPath& path) {
-  s.integer("steps", path.steps, {.min = 1, .max = 1000000}, "number of equilibria");
+  s.integer("steps", path.steps, {.min = 1, .max = 1000000}, "number of equilibria after that at the time 0");
   s.number(
       "end", path.end, {.unit = "s", .above = 0},
       "time of the last equilibrium, to which loads, friction and supports follow their functions of time");

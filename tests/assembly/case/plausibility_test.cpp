@@ -137,6 +137,16 @@ TEST(ImplausibleValues, UndividedJointsThatTheCaseAsksForAreNone) {
           .warnings.empty());
 }
 
+TEST(ImplausibleValues, NoDefaultIsOne) {
+  for (const char* parameter : {"friction", "tilt", "acceleration", "load", "thickness", "spread",
+                                "joint_extent", "lantern", "peak_stress"})
+    EXPECT_EQ(read_case(bundled_folder() + "/dome_circular.yaml",
+                        {std::string("analysis={type: limit, limit: {parameter: ") + parameter + "}}"})
+                  .warnings,
+              std::vector<std::string>{})
+        << parameter;
+}
+
 TEST(ImplausibleValues, AccelerogramsInOtherUnits) {
   const ScratchFolder scratch;
   scratch.write("quake.csv", "0, 0\n1, 0.08\n2, 0\n3, -0.08\n4, 0\n");
