@@ -66,6 +66,7 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   the_case.warnings = sentences(expected);
   the_case.warnings.insert(the_case.warnings.begin(), not_inherited.begin(), not_inherited.end());
   for (std::string& unused : unused_tensions(the_case.joints)) the_case.warnings.push_back(std::move(unused));
+  for (std::string& coarse : undivided_joints(the_case)) the_case.warnings.push_back(std::move(coarse));
   for (std::string& unused : unused_times(the_case)) the_case.warnings.push_back(std::move(unused));
   for (std::string& missed : missed_changes(the_case)) the_case.warnings.push_back(std::move(missed));
   return the_case;

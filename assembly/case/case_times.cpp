@@ -67,10 +67,17 @@ std::vector<std::string> unused_times(const Case& scene) {
   if (analysis.type == AnalysisType::dynamic || analysis.type == AnalysisType::path) return out;
   const bool spread =
       analysis.type == AnalysisType::limit && analysis.limit.parameter == LimitSearch::Parameter::spread;
-  std::vector<std::string> values;
+  std::vector<std::string> values, moves;
   for (const KeyedTime& time : times_of(scene))
-    if (varies(time.function) && time.key != kGround && !(spread && time.key.starts_with("supports.moves")))
-      values.push_back(fmt::format("{} = {:g}", time.key, factor_at(time.function, 0.0)));
+    if (varies(time.function) && time.key != kGround)
+      (time.key.starts_with("supports.moves") ? moves : values)
+          .push_back(fmt::format("{} = {:g}", time.key, factor_at(time.function, 0.0)));
+  if (!moves.empty() && !spread)
+    out.push_back(fmt::format(
+        "{} at the time 0: analysis.type: {} leaves the rest of this movement out, and answers for the "
+        "geometry as built; statics without `time` take all of it, type: path follows it, and for margins "
+        "after it export the moved blocks (docs/cracked.md, step 8)",
+        fmt::join(moves, ", "), to_string(analysis.type)));
   if (!values.empty())
     out.push_back(fmt::format(
         "{} at the time 0, which is all that analysis.type: {} uses; leave this out for the full value, "

@@ -47,7 +47,8 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.choice(
       "parameter", limit.parameter,
       "parameter whose critical value is sought: friction coefficient; tilt of gravity (deg); horizontal "
-      "acceleration (g); factor on loads.forces and loads.faces (load); factor on the shell thickness about "
+      "acceleration (g); factor on loads.forces and loads.faces, but no fill (load); factor on the shell "
+      "thickness about "
       "its middle surface; factor on supports.moves (spread; take Coulomb's law where joints slide: the "
       "associated law lifts what slides); factor on the extent of every joint about its "
       "centroid (direct only), whose inverse is the geometric safety of the safest state; weight of the "
@@ -58,9 +59,11 @@ void declare_limit(Section& s, LimitSearch& limit) {
            "one static solve per value; automatic: direct where it applies");
   const bool scales = limit.parameter == Parameter::thickness || limit.parameter == Parameter::joint_extent;
   if (scales) limit.low = 0.01;
+  if (limit.parameter == Parameter::tilt) limit.high = 90.0;
   s.number("low", limit.low, {}, "lower end of the initial bracket; not used by peak_stress",
            "0; thickness, joint_extent: 0.01");
-  s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress");
+  s.number("high", limit.high, {}, "upper end of the initial bracket; not used by peak_stress",
+           "1; tilt: 90");
   s.optional_number("relative_width", limit.relative_width, {.above = 0, .below = 1},
                     "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-5",
                     "largest width of the final bracket over its middle value");
@@ -86,7 +89,7 @@ void declare_control(Section& s, LoadPath::Control& control) {
 }
 
 void declare_path(Section& s, LoadPath& path) {
-  s.integer("steps", path.steps, {.min = 1, .max = 1000000}, "number of equilibria");
+  s.integer("steps", path.steps, {.min = 1, .max = 1000000}, "number of equilibria after that at the time 0");
   s.number(
       "end", path.end, {.unit = "s", .above = 0},
       "time of the last equilibrium, to which loads, friction and supports follow their functions of time");

@@ -17,7 +17,7 @@ void declare_contact(Section& s, ContactDetection& contact) {
   s.integer(
       "subdivide", contact.subdivide, {.min = 1, .max = 64},
       "compliance per area: cut each joint into this number squared of pieces with contact points each; "
-      "joints with strength need 2 or more");
+      "joints with compressive strength need 2 or more, doubled until the answer stays (docs/strength.md)");
   ContactDetection::Perturbation& gjk = contact.perturbation;
   s.integer("perturbations", gjk.perturbations, {.min = 1, .max = 10000},
             "perturbed_gjk: queries per pair of parts");
@@ -26,7 +26,7 @@ void declare_contact(Section& s, ContactDetection& contact) {
   s.integer("seed", gjk.seed, {.min = 0}, "perturbed_gjk: seed of the random rotations");
   s.integer("keep", gjk.keep, {.min = 1, .max = 100}, "perturbed_gjk: contact points kept per pair of parts");
   s.file("file", contact.file,
-         "method file: CSV file of contact points (solver/README.md); static analysis only");
+         "method file: CSV file of contact points (assembly/FORMAT.md); static analysis only");
 
   s.rule(contact.method == perturbed_gjk || gjk == ContactDetection::Perturbation{}, "method",
          "the keys perturbations, angle, seed and keep require method: perturbed_gjk");

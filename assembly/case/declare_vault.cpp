@@ -175,7 +175,8 @@ void declare_vault(Section& s, VaultSurface& vault) {
   s.section("plan", vault.plan, "line over which the vault stands", declare_plan);
   s.section("profile", vault.profile, "section of the vault", declare_profile);
   expect_length(s, "profile.span", vault.profile.width());
-  declare_shell_thickness(s, vault.thickness, kThickest, "thickness, normal to the profile");
+  declare_shell_thickness(s, vault.thickness, 0.5 * vault.profile.width(),
+                          "thickness, normal to the profile");
   s.choice("beds", vault.beds,
            "plane and normal to the profile, on cones about the axis, level, or at bed_angles_deg");
   s.numbers(

@@ -13,6 +13,10 @@ namespace cupola {
 /// beside their keys (Section::expect).
 std::vector<std::string> unused_tensions(const Joints& joints);
 
+/// Joints that crush, of so few contact points that the edge of a joint bears a sixth of its strength, unless
+/// the case says how many.
+std::vector<std::string> undivided_joints(const Case& scene);
+
 /// Values that must fit the blocks, one sentence each: heights and planes outside the model, loads far
 /// smaller than the blocks are heavy, supports that move further than the model is large, an import in
 /// another unit.

@@ -126,6 +126,22 @@ KeyNumber end_of_path(const Evaluation& e) {
           fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
 }
 
+/// What a search over directions leaves open; "" if it has decided all.
+std::string undecided_text(int sought, int decided) {
+  if (decided >= sought) return "";
+  return fmt::format("; {} of {} {} undecided and may be weaker", sought - decided, sought,
+                     sought - decided == 1 ? "is" : "are");
+}
+
+/// An equilibrium by itself has loads and supports as they are at the time 0: its cracks are not those of
+/// supports that move later.
+bool supports_have_not_moved(const Evaluation& e) {
+  return e.last.frame.role == FrameRole::equilibrium &&
+         std::ranges::any_of(e.scene.supports.moves, [](const SupportMove& move) {
+           return varies(move.time) && factor_at(move.time, 0.0) == 0.0;
+         });
+}
+
 /// ", the widest 25 as 12 cracks over 14 m, none through the shell": hairlines form no crack.
 std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
   if (cracks.empty()) return "";
@@ -177,8 +193,9 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (const auto& robust = e.summary.robustness)
     return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
             robust->acceleration_g > 0.0
-                ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees",
-                              robust->directions, robust->azimuth_deg)
+                ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees{}",
+                              robust->directions, robust->azimuth_deg,
+                              undecided_text(e.scene.analysis.robustness, robust->directions))
                 : fmt::format("any push towards {:.4g} degrees makes it move", robust->azimuth_deg)};
   if (e.scene.analysis.robustness > 0 && at_rest(e) && !e.summary.parts.empty())
     return {"Horizontal acceleration", "not computed", "not all parts stand"};
@@ -207,6 +224,8 @@ KeyNumber margin_answer(const Evaluation& e) {
 
 std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   if (!at_rest(e) || is_rigid(e)) return std::nullopt;
+  if (supports_have_not_moved(e))
+    return KeyNumber{"Widest crack", "not computed", "the supports move in time, and here they have not"};
   const std::vector<Crack>& cracks = e.joint_cracks;
   if (cracks.empty())
     return KeyNumber{

@@ -39,14 +39,14 @@ void fill_in_case(CaseNode* node, const std::string& name) {
   for (CaseNode::Entry& entry : node->entries) fill_in_case(&entry.value, name);
 }
 
-bool gives(const CaseNode& tree, const std::string& key) {
-  const CaseNode* node = &tree;
-  for (size_t start = 0; node && start <= key.size();) {
-    const size_t dot = std::min(key.find('.', start), key.size());
-    node = node->find(key.substr(start, dot - start));
-    start = dot + 1;
-  }
-  return node && node->kind != CaseNode::Kind::empty;
+/// True if the map, or an item of the list, gives the key, whose path leads through maps and lists.
+bool gives(const CaseNode& node, const std::string& key) {
+  if (node.kind == CaseNode::Kind::list)
+    return std::ranges::any_of(node.items, [&key](const CaseNode& item) { return gives(item, key); });
+  const size_t dot = key.find('.');
+  const CaseNode* inner = node.find(key.substr(0, dot));
+  if (!inner || inner->kind == CaseNode::Kind::empty) return false;
+  return dot == std::string::npos || gives(*inner, key.substr(dot + 1));
 }
 
 /// Why the runs of a group do not apply to the case; "": they do.

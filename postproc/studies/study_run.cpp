@@ -66,7 +66,8 @@ void declare_run_group(Section& s, RunGroup& group) {
   s.list("sweep", group.sweep, "keys and the values they take, in all combinations", declare_swept_key);
   s.optional_section("ensemble", group.ensemble, "random members of every case, the same for all",
                      declare_ensemble);
-  declare_names(s, "needs", group.needs, "keys of which the case must give one; else the runs are left out");
+  declare_names(s, "needs", group.needs,
+                "keys of which the case, or an item of its lists, must give one; else the runs are left out");
   s.number("settle", group.settle, {.min = 0, .max = 0.1},
            "one run per support, which sinks by this share of the span of the model");
   s.rule(group.settle == 0.0 || (group.cases.size() == 1 && group.sweep.empty()), "settle",

@@ -59,6 +59,7 @@ DirectionLimit limit_towards(const Case& scene, const RigidScene& rest, double a
 /// The limits over `scene.analysis.robustness` directions.
 struct DirectionLimits {
   int directions = 0, undecided = 0;
+  double first_undecided_deg = 0.0;
   std::optional<Robustness> least = {};  ///< none if no direction has a limit
 };
 
@@ -79,8 +80,9 @@ DirectionLimits find_robustness(const Case& scene, const Assembly& assembly) {
       limits[k] = limit_towards(scene, rest, 2.0 * std::numbers::pi * image / count);
   });
   DirectionLimits all{.directions = count};
-  for (const DirectionLimit& limit : limits)
-    if (limit.outcome == DirectionLimit::undecided) all.undecided += count / different;
+  for (int k = different - 1; k >= 0; --k)
+    if (limits[k].outcome == DirectionLimit::undecided)
+      all.undecided += count / different, all.first_undecided_deg = 360.0 * k / count;
   // Of directions that rounding does not distinguish, as by symmetry, the first counts.
   for (int k = 0; k < different; ++k)
     if (limits[k].outcome == DirectionLimit::found &&
@@ -107,6 +109,15 @@ std::string describe(const DirectionLimits& limits) {
   return fmt::format(
       "; the least of {} horizontal accelerations that make it move is {:.4g} g, towards {:g} degrees{}",
       least.directions, least.moving_g, least.azimuth_deg, undecided);
+}
+
+/// The least that was found may not be the least of all; "" if every direction is decided.
+std::string undecided_warning(const DirectionLimits& limits) {
+  if (limits.undecided == 0 || (limits.least && limits.least->acceleration_g == 0.0)) return "";
+  return fmt::format(
+      "analysis.robustness: {} of {} directions are undecided, the first towards {:g} degrees: it may bear "
+      "less there; ask with analysis.type: limit, parameter: acceleration and this direction",
+      limits.undecided, limits.directions, limits.first_undecided_deg);
 }
 
 /// A note for the message if displacements are large, because equilibrium is found on the geometry as built.
@@ -201,6 +212,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
     const DirectionLimits limits = find_robustness(scene, assembly);
     summary.robustness = limits.least;
     summary.message += describe(limits);
+    if (const std::string warning = undecided_warning(limits); !warning.empty())
+      summary.warnings.push_back(warning);
   }
   if (solution.outcome != StaticOutcome::equilibrium && !symmetry && !wrench_error)
     if (const auto parts = solve_by_parts(model, rest, contacts, memories, options))

@@ -1,5 +1,7 @@
 #include "solver/analysis/admissible/rigid_scene.hpp"
 
+#include <fmt/format.h>
+
 #include "assembly/base/error.hpp"
 #include "solver/analysis/admissible/joint_geometry.hpp"
 #include "solver/analysis/record/record.hpp"
@@ -55,12 +57,17 @@ void scale_joints(const Assembly& assembly, double extent, ContactSet* contacts)
 }
 
 /// The shear that such a joint carries does not depend on its normal force: no cone.
-void require_friction_with_cohesion(const ContactProblem& problem) {
+void require_friction_with_cohesion(const ContactProblem& problem, const Analysis& analysis) {
+  using enum LimitSearch::Parameter;
+  const LimitSearch::Parameter sought = analysis.limit.parameter;
+  const bool can_bisect =
+      analysis.type == AnalysisType::limit && sought != joint_extent && sought != peak_stress;
   for (int i = 0; i < problem.num_contacts() && !problem.strength.empty(); ++i)
     if (problem.strength[i].cohesion > 0.0 && problem.mu[i] == 0.0)
       throw InputError(
-          "joints.cohesion: ranges and direct limits require friction > 0 in joints with cohesion; give "
-          "joints.friction, or analysis.limit.method: bisection");
+          fmt::format("joints.cohesion: ranges, robustness and direct limits require friction > 0 in joints "
+                      "with cohesion; give joints.friction{}",
+                      can_bisect ? ", or analysis.limit.method: bisection" : ""));
 }
 
 }  // namespace
@@ -81,7 +88,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   ConicProblem& problem = rigid.problem;
   problem.contacts =
       build_step_problem(rigid.model, rigid.start, rigid.contacts, rigid.memories, step).problem;
-  require_friction_with_cohesion(problem.contacts);
+  require_friction_with_cohesion(problem.contacts, scene.analysis);
   problem.load = applied_forces(rigid.model, rigid.start, rigid.start.time);
   problem.cost = VecX::Zero(3 * problem.contacts.num_contacts());
   problem.load_columns = MatX(problem.load.size(), 0);

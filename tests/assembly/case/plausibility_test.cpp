@@ -33,6 +33,9 @@ const std::vector<Mistake> kMistakes = {
     {"dome_circular",
      {"geometry.surface.thickness=2200"},
      "geometry.surface.thickness = 2200 m: 0.002 to 20 m expected; in mill"},
+    {"groin_vault",
+     {"geometry.surface.thickness=4"},
+     "geometry.surface.thickness = 4 m: 0.002 to 3 m expected; in mill"},
     {"dome_circular", {"geometry.surface.thickness=0.0011"}, "geometry.surface.thickness = 0.0011 m: "},
     {"dome_circular",
      {"geometry.surface.crown_angle_deg=1.05"},
@@ -80,6 +83,15 @@ const std::vector<Mistake> kMistakes = {
      {"joints.tension=1e4", "joints.failure=softening", "joints.fracture_energy={tension: 0.01, shear: 100}",
       "analysis={type: dynamic}"},
      "joints.fracture_energy.tension = 0.01 N/m: 0.1 to 100000 N/m expected; in N/mm?"},
+    {"arch",
+     {"joints.compliance={per: area}", "joints.compressive_strength=2.5e6"},
+     "contact.subdivide is not given: an undivided joint with compressive strength is up to 20 % too strong"},
+    {"arch",
+     {"joints.compliance={per: area}", "joints.bed.compressive_strength=2.5e6"},
+     "contact.subdivide is not given: "},
+    {"arch",
+     {"joints.compliance={per: area}", "joints.rings=[{from: 3, compressive_strength: 2.5e6}]"},
+     "contact.subdivide is not given: "},
     {"dome_circular",
      {"loads.gravity=[0, 0, 9.81]"},
      "loads.gravity (z) = 9.81 m/s2: at most 0 m/s2 expected; upward?"},
@@ -116,6 +128,23 @@ TEST(ImplausibleValues, EveryMistakeGivesOneWarningWithItsCause) {
     EXPECT_TRUE(scene.warnings.front().starts_with(mistake.sentence)) << scene.warnings.front();
     EXPECT_NE(scene.warnings.front().find(';'), std::string::npos) << "the likely cause is missing";
   }
+}
+
+// Whoever writes 1 asks for it.
+TEST(ImplausibleValues, UndividedJointsThatTheCaseAsksForAreNone) {
+  EXPECT_TRUE(
+      read_case(bundled_folder() + "/arch.yaml", {"joints.compressive_strength=2.5e6", "contact.subdivide=1"})
+          .warnings.empty());
+}
+
+TEST(ImplausibleValues, NoDefaultIsOne) {
+  for (const char* parameter : {"friction", "tilt", "acceleration", "load", "thickness", "spread",
+                                "joint_extent", "lantern", "peak_stress"})
+    EXPECT_EQ(read_case(bundled_folder() + "/dome_circular.yaml",
+                        {std::string("analysis={type: limit, limit: {parameter: ") + parameter + "}}"})
+                  .warnings,
+              std::vector<std::string>{})
+        << parameter;
 }
 
 TEST(ImplausibleValues, AccelerogramsInOtherUnits) {
@@ -206,14 +235,19 @@ TEST(UnusedTimes, AreNamedWithTheirFactor) {
   };
   const std::string ramp = "supports.moves=[{blocks: [0], displacement: [5e-3, 0, 0], time: {type: ramp}}]";
   const std::string wave = "loads.dead_load_time={type: harmonic, phase_deg: 90}";
-  EXPECT_EQ(
-      warnings({"analysis={type: static}", ramp}),
-      std::vector<std::string>{"supports.moves[0].time = 0 at the time 0, which is all that analysis.type: "
-                               "static uses; leave this out for the full value, or use type: path"});
-  const std::vector<std::string> both = warnings({"analysis={type: static}", ramp, wave});
-  ASSERT_EQ(both.size(), 1u);
-  EXPECT_TRUE(both[0].starts_with("supports.moves[0].time = 0, loads.dead_load_time = 1 at the time 0,"))
-      << both[0];
+  const std::vector<std::string> moves = warnings({"analysis={type: static}", ramp});
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_TRUE(moves[0].starts_with(
+      "supports.moves[0].time = 0 at the time 0: analysis.type: static leaves the rest of "
+      "this movement out, and answers for the geometry as built;"))
+      << moves[0];
+  const std::vector<std::string> both =
+      warnings({"analysis={type: static}", ramp, wave, "joints.friction_time={type: ramp, from: 1, to: 2}"});
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0], moves[0]);
+  EXPECT_EQ(both[1],
+            "loads.dead_load_time = 1, joints.friction_time = 1 at the time 0, which is all that "
+            "analysis.type: static uses; leave this out for the full value, or use type: path");
   const std::vector<std::string> one =
       warnings({"analysis={type: range, range: {quantities: [thrust]}}", wave});
   ASSERT_EQ(one.size(), 1u);

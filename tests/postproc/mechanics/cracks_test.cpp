@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/report/answers.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "tests/postproc/scene.hpp"
 
@@ -86,6 +87,20 @@ TEST(Cracks, NeedAGap) {
   const Evaluation e = evaluated_with(0.0);
   EXPECT_TRUE(cracks_of(e.last.frame.contacts, e.last.joints).empty());
   EXPECT_EQ(post_summary(e).crack_length_m.value(), 0.0);
+}
+
+// Statics of a case whose supports move on a path: its cracks are those before the movement.
+TEST(Cracks, AreNotThoseOfSupportsThatHaveNotMoved) {
+  Evaluation e = evaluated_with(2e-3);
+  SupportMove move;
+  move.displacement.z() = -0.01;
+  e.scene.supports.moves = {move};
+  const std::string widest = crack_answer(e).value().value;
+  EXPECT_NE(widest, "none") << "moved from the start";
+  e.scene.supports.moves[0].time = RampInTime{};
+  EXPECT_EQ(crack_answer(e).value().value, "not computed");
+  e.summary.analysis = AnalysisType::path;
+  EXPECT_EQ(crack_answer(e).value().value, widest) << "of a path, which follows the movement";
 }
 
 }  // namespace

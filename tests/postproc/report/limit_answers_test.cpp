@@ -46,6 +46,12 @@ TEST(LimitAnswers, ASearchForAccelerationsSaysWhatItFound) {
   e.summary.robustness = Robustness{8, 0.0, 1e-8, 45.0};
   EXPECT_EQ(margin_answer(e).value, "0 g");
   EXPECT_EQ(margin_answer(e).detail, "any push towards 45 degrees makes it move");
+  e.summary.robustness = Robustness{8, 0.156, 0.1561, 90.0};
+  EXPECT_EQ(margin_answer(e).detail, "borne in the weakest of 8 directions, towards 90 degrees");
+  e.summary.robustness->directions = 7;
+  EXPECT_EQ(
+      margin_answer(e).detail,
+      "borne in the weakest of 7 directions, towards 90 degrees; 1 of 8 is undecided and may be weaker");
   e.summary.robustness.reset();
   e.summary.parts = {{1, 2, Status::stable}, {3, 1, Status::moving}};
   EXPECT_EQ(margin_answer(e).value, "not computed") << "of what stands in part";

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "assembly/case/bundled.hpp"
 #include "postproc/studies/study.hpp"
 #include "postproc/studies/support_groups.hpp"
 #include "tests/assembly/case/case_scratch.hpp"
@@ -109,6 +110,26 @@ TEST(StudyAnswers, SortMarginsAndSayWhatWasNotComputed) {
   EXPECT_NE(page.text.find("not computed: lantern: the case has no loads.lantern\n"), std::string::npos)
       << page.text;
   EXPECT_NE(page.text.find("not computed: b: not with this key\n"), std::string::npos) << page.text;
+}
+
+// Fill is not multiplied: a case with no other load has no critical load to look for.
+TEST(StudyAnswers, FillIsNoLoadToMultiply) {
+  const auto left_out = [](const std::string& loads) {
+    const ScratchFolder scratch;
+    scratch.write("a.yaml", "geometry: {surface: {type: wall}}\nloads: {" + loads + "}\n");
+    return read_study(bundled_folder() + "/studies/per_case/assessment.yaml", {scratch.file("a.yaml"), ""})
+        .left_out;
+  };
+  const std::string fill = "{kind: extrados, fill: {level: 2, unit_weight: 18000}}";
+  const std::vector<NotComputed> of_fill = left_out("faces: [" + fill + "]");
+  ASSERT_EQ(of_fill.size(), 2u);
+  EXPECT_EQ(of_fill[0].what, "load");
+  EXPECT_EQ(of_fill[0].why,
+            "the case has no loads.forces and no loads.faces.traction and no loads.faces.pressure");
+  EXPECT_EQ(of_fill[1].what, "lantern");
+  EXPECT_EQ(left_out("faces: [" + fill + ", {kind: extrados, pressure: 1000}]").size(), 1u);
+  EXPECT_EQ(left_out("faces: [{kind: top, traction: [0, 0, -1000]}]").size(), 1u);
+  EXPECT_EQ(left_out("forces: [{block: 1, force: [0, 0, -1]}]").size(), 1u);
 }
 
 // Of the 30 warnings of the run that gives the verdict, 29 are alike.

@@ -4,6 +4,7 @@
 #include <regex>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "solver/analysis/analysis.hpp"
@@ -64,6 +65,23 @@ TEST(Robustness, WhatIsWedgedHasNoLimit) {
   EXPECT_NE(summary.message.find("; no horizontal acceleration in 4 directions makes it move"),
             std::string::npos)
       << summary.message;
+}
+
+// Beside mortar of 1 TPa the weights are rounding, which leaves directions undecided: how many depends on the
+// machine.
+TEST(Robustness, UndecidedDirectionsAreAWarning) {
+  Case scene = testing::make_case(0.5, 1e-10, 0.01);
+  scene.joints.compliance.per = Compliance::Per::area;
+  scene.joints.strength.cohesion = 1e12;
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.robustness = 8;
+  const Summary summary = run_static(scene, testing::box_on_floor({1.0, 0.5, 1.0}), {});
+  const int undecided = 8 - (summary.robustness ? summary.robustness->directions : 0);
+  ASSERT_GT(undecided, 0) << summary.message;
+  ASSERT_EQ(summary.warnings.size(), 1u) << summary.message;
+  EXPECT_TRUE(summary.warnings[0].starts_with(
+      fmt::format("analysis.robustness: {} of 8 directions are undecided, the first towards ", undecided)))
+      << summary.warnings[0];
 }
 
 // A dome in mortar, which the programmes solve to bounds that differ by rounding only if the mechanism is

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -46,6 +47,18 @@ class ContactFile : public ::testing::Test {
   Assembly scene_ = box_on_floor(Vec3(1, 1, 1));
   std::filesystem::path folder_;
 };
+
+TEST_F(ContactFile, HasItsColumnsInTheFormats) {
+  const std::string page = read_text(CUPOLA_SOURCE_DIR "/assembly/FORMAT.md");
+  const size_t start = page.find("## Contact points of another program\n");
+  ASSERT_NE(start, std::string::npos);
+  size_t at = start;
+  std::istringstream header(kHeader.substr(0, kHeader.size() - 1));
+  for (std::string column; std::getline(header, column, ',');) {
+    at = page.find("`" + column + "`", at);
+    EXPECT_LT(at, page.find("## results/", start)) << column << " is missing, or not in its place";
+  }
+}
 
 TEST_F(ContactFile, ProvidesTheContactsItLists) {
   DetectionOptions options;
