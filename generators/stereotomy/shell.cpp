@@ -139,6 +139,7 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                            ? window_surface(member.surface, thicknesses(member.wythes), *geometry.window,
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
+  if (stage > 0 && surface.key_stone) surface.carries = false;  // the stone is to come
   const SurfaceMap before_affine = surface;
   if (geometry.affine && surface.webs == 0) apply(*geometry.affine, &surface);
   if (surface.webs > 0 && stage > 0)
