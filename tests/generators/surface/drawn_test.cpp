@@ -395,6 +395,12 @@ TEST(DrawnErrors, NameTheKeyAndThePlace) {
             std::string::npos);
   EXPECT_NE(error_of(open).find("a solid tip on level beds is loads.lantern: {weight: N}"),
             std::string::npos);
+  for (const Plan::Kind plan : {Plan::Kind::line, Plan::Kind::circle})
+    EXPECT_NE(
+        error_of(vault_on(plan, chain_of({1, 3, 4}, {4, 3, 0})))
+            .find("profile: ends at (4, 0) m, lower and farther from the axis than it begins, at (1, 4) m"),
+        std::string::npos)
+        << error_of(vault_on(plan, chain_of({1, 3, 4}, {4, 3, 0})));
   VaultSurface level = vault_on(Plan::Kind::circle, profile_of(Kind::semicircle));
   level.eye = 1.0;
   level.key_stone = true;
