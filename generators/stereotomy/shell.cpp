@@ -9,6 +9,7 @@
 #include "generators/bond/long_blocks.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/wythe_bond.hpp"
+#include "generators/stereotomy/meetings.hpp"
 #include "generators/stereotomy/opening_places.hpp"
 #include "generators/stereotomy/placement.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -221,6 +222,7 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
   }
   copy_stack(*members[first], first_storey, &storeys);
   limit_neighbours(&storeys);
+  pair_mitres(&storeys);
   return storeys;
 }
 
