@@ -133,7 +133,8 @@ void declare_geometry(Section& s, Geometry& geometry) {
       "cut only some courses over a sector of the shell; bond.rings and bond.blocks_per_ring are "
       "counted in it",
       declare_window);
-  s.optional_section("stage", geometry.stage, "build only the lower rings", declare_stage);
+  s.optional_section("stage", geometry.stage, "build only the lower rings, of a barrel from both springings",
+                     declare_stage);
   s.list("chains", geometry.chains, "chains round a dome or vault, and tie rods across a barrel",
          declare_chain);
   for (size_t i = 0; i < geometry.chains.size(); ++i)

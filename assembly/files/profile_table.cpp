@@ -1,6 +1,7 @@
 #include "assembly/files/profile_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <sstream>
 
@@ -25,6 +26,23 @@ bool is_number(const std::string& word, double* value) {
   return static_cast<bool>(in >> *value) && in.eof() && std::isfinite(*value);
 }
 
+/// The names of columns in a heading, without their units: r of `r (m)` and of `r_m`.
+std::vector<std::string> names_of(const std::vector<std::string>& heading) {
+  std::vector<std::string> names;
+  for (const std::string& word : heading) {
+    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    if (word.front() == '(' || word.front() == '[') continue;
+    const auto first = std::ranges::find_if(word, is_letter);  // behind quotation marks
+    names.emplace_back(first, std::find_if_not(first, word.end(), is_letter));
+  }
+  return names;
+}
+
+bool is_heading(const std::vector<std::string>& words) {
+  const std::vector<std::string> names = names_of(words), columns{"r", "z", "radius"};
+  return names.size() > 1 && names.size() < 4 && std::equal(names.begin(), names.end(), columns.begin());
+}
+
 }  // namespace
 
 ProfileTable read_profile_table(const std::string& path) {
@@ -37,7 +55,12 @@ ProfileTable read_profile_table(const std::string& path) {
     std::vector<double> values(words.size());
     bool all = true;
     for (size_t i = 0; i < words.size(); ++i) all = is_number(words[i], &values[i]) && all;
-    if (!all && table.r.empty() && !is_number(words[0], values.data())) continue;  // a heading
+    if (!all && table.r.empty() && !is_number(words[0], values.data())) {
+      if (is_heading(words)) continue;
+      throw InputError({path, number, 1},
+                       "the columns must be r, z and perhaps radius, in this order; this heading names "
+                       "others");
+    }
     if (!all || words.size() < 2 || words.size() > 3)
       throw InputError({path, number, 1},
                        "expected two or three numbers: r (m), z (m) and perhaps the radius (m)");

@@ -23,7 +23,8 @@ struct ProfileTable {
 };
 
 /// Reads two or three columns of numbers, r, z and radius (separated by commas, blanks or tabs; `#` starts a
-/// comment, and a first row of words is a heading). Throws InputError with file and line.
+/// comment, and a first row of words is a heading with these names, perhaps with units). Throws InputError
+/// with file and line.
 ProfileTable read_profile_table(const std::string& path);
 
 /// Scales a section so that its first point, which has r > 0, has r = span / 2.

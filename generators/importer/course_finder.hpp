@@ -26,13 +26,14 @@ class CourseFinder {
 
   /// The faces of a block that meet a support or the course below.
   const std::vector<int>& lower_bed(int block) const { return beds_[block]; }
+  /// The blocks of the same course that a block touches.
+  std::vector<int> beside(const std::vector<int>& course, int block) const;
 
  private:
   std::string labels(const std::vector<int>& blocks) const;
   std::vector<int> courses_by_distance(const std::vector<int>& from, std::string* refusal) const;
   std::vector<int> courses_by_number(const std::vector<int>& from) const;
   void set_beds(const std::vector<int>& course);
-  std::vector<int> beside(const std::vector<int>& course, int block) const;
   double height_of(const std::vector<int>& stones) const;
   bool leans_on_sides(int block) const;
   void check(Courses* found) const;

@@ -21,6 +21,9 @@ class Labels {
          Assembly* assembly)
       : courses_(courses), finder_(finder), graph_(graph), sheet_(sheet), assembly_(*assembly) {
     set_wall();
+    for (const std::vector<int>& stones : courses.stones)
+      in_layers_.push_back(
+          std::ranges::any_of(stones, [&](int b) { return finder.beside(courses.course, b).size() > 2; }));
   }
 
   void set() {
@@ -32,7 +35,7 @@ class Labels {
         Block& block = assembly_.blocks[stones[slot]];
         block.ring = k;
         block.slot = static_cast<int>(slot);
-        name_faces(stones, slot);
+        name_faces(stones[slot]);
       }
     }
     for (Part& part : assembly_.parts) {
@@ -42,24 +45,26 @@ class Labels {
   }
 
  private:
+  const Vec3& centroid_of(int block) const { return assembly_.blocks[block].centroid; }
+
   /// rad, in [0, 2 pi), about the axis.
   double azimuth_of(int block) const {
-    const Vec3 r = assembly_.blocks[block].centroid - sheet_.origin;
+    const Vec3 r = centroid_of(block) - sheet_.origin;
     const double angle = std::atan2(r.y(), r.x());
     return angle < -kRoundedAngle ? angle + 2.0 * std::numbers::pi : std::abs(angle);
   }
 
-  /// Along the course: about the axis, across an arch, or from stone to stone.
-  Vec3 along(const std::vector<int>& stones, size_t slot) const {
-    using enum Sheet::ThrustLines;
-    const Block& block = assembly_.blocks[stones[slot]];
-    if (sheet_.thrust_lines == one)  // constant: outwards turns from the first springing to the last
+  /// Along the course: across an arch; from stone to stone, where each has two at most beside it; else about
+  /// the axis or along the wall.
+  Vec3 along(int b) const {
+    if (sheet_.thrust_lines == Sheet::ThrustLines::one)
+      // constant: outwards turns from the first springing to the last
       return Eigen::AngleAxisd(sheet_.turn, Vec3::UnitZ()) * Vec3::UnitY();
-    if (sheet_.closed) return Vec3::UnitZ().cross(*sheet_.outward(block.centroid));
-    if (stones.size() == 1 && sheet_.thrust_lines == none) return along_wall_;
-    const Vec3 &before = assembly_.blocks[stones[slot > 0 ? slot - 1 : slot]].centroid,
-               &after = assembly_.blocks[stones[std::min(slot + 1, stones.size() - 1)]].centroid;
-    return (after - before).stableNormalized();
+    const std::vector<int> next = finder_.beside(courses_.course, b);
+    if (!next.empty() && !in_layers_[courses_.course[b]])
+      return (centroid_of(next.back()) - centroid_of(next.size() > 1 ? next.front() : b)).stableNormalized();
+    const std::optional<Vec3> outward = sheet_.outward(centroid_of(b));
+    return outward ? Vec3::UnitZ().cross(*outward) : along_wall_;
   }
 
   /// The directions along and out of a wall: along the course of most stones, in a pier of single stones along
@@ -89,19 +94,18 @@ class Labels {
     return bed ? FaceKind::bed : FaceKind::head;
   }
 
-  void name_faces(const std::vector<int>& stones, size_t slot) {
-    const int b = stones[slot];
+  void name_faces(int b) {
     Vec3 m = Vec3::Zero();
     for (const int f : finder_.lower_bed(b)) {
       const std::vector<Vec3> polygon = face_points(assembly_, f);
       m -= polygon_area(polygon) * polygon_plane(polygon).normal;
     }
     m.stableNormalize();
-    Vec3 t = along(stones, slot);
+    Vec3 t = along(b);
     t = (t - t.dot(m) * m).stableNormalized();
     Vec3 n = t.cross(m);
-    if (!sheet_.closed && sheet_.thrust_lines != Sheet::ThrustLines::one) {  // chains may run either way
-      const std::optional<Vec3> outward = sheet_.outward(assembly_.blocks[b].centroid);
+    if (sheet_.thrust_lines != Sheet::ThrustLines::one) {  // courses may run either way
+      const std::optional<Vec3> outward = sheet_.outward(centroid_of(b));
       if (n.dot(outward.value_or(out_of_wall_)) < 0.0) n = -n;
     }
     std::map<int, std::vector<int>> others;
@@ -140,6 +144,7 @@ class Labels {
   const Sheet& sheet_;
   Assembly& assembly_;
   Vec3 along_wall_, out_of_wall_;  // horizontal unit vectors
+  std::vector<bool> in_layers_;    // per course
 };
 
 }  // namespace

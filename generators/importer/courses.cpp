@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -59,6 +61,56 @@ bool are_rings(const Courses& courses, const Assembly& assembly, const Vec3& ori
     if (stones.size() > 1 && std::abs(turn) < std::numbers::pi) return false;
   }
   return true;
+}
+
+/// True if stones of a course lead from joint to joint about the axis, as rings in layers and those beside
+/// openings above or below do.
+bool lead_about(const Vec3& origin, const std::vector<int>& stones, const Courses& courses,
+                const CourseFinder& finder, const Assembly& assembly) {
+  const auto turn = [&](int from, int to) {  // rad
+    const Vec3 p = assembly.blocks[from].centroid - origin, q = assembly.blocks[to].centroid - origin;
+    return std::atan2(p.x() * q.y() - p.y() * q.x(), p.x() * q.x() + p.y() * q.y());
+  };
+  std::map<int, double> turned;  // from the first stone that joints reach
+  for (const int start : stones) {
+    if (!turned.try_emplace(start, 0.0).second) continue;
+    std::vector<int> open{start};
+    for (size_t i = 0; i < open.size(); ++i)
+      for (const int next : finder.beside(courses.course, open[i])) {
+        const double there = turned[open[i]] + turn(open[i], next);
+        const auto [known, is_new] = turned.try_emplace(next, there);
+        if (is_new) open.push_back(next);
+        if (std::abs(known->second - there) > std::numbers::pi) return true;
+      }
+  }
+  return false;
+}
+
+/// True if the axis is in the open: the hole about it is wider than the stone beside it, unlike the joint or
+/// the cavity between two leaves of a wall.
+bool is_in_the_open(const Vec3& origin, const std::vector<int>& stones, const Assembly& assembly) {
+  double nearest = std::numeric_limits<double>::infinity(), size = 0.0;  // m
+  for (const Part& part : assembly.parts) {
+    if (std::ranges::find(stones, part.block) == stones.end()) continue;
+    const Block& block = assembly.blocks[part.block];
+    const Vec3 axis(origin.x(), origin.y(), block.centroid.z());
+    double outside = -std::numeric_limits<double>::infinity();
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const Plane plane = polygon_plane(face_points(assembly, f));
+      outside = std::max(outside, plane.normal.dot(axis) - plane.offset);
+    }
+    if (outside < nearest) size = std::cbrt(block.volume);
+    nearest = std::min(nearest, outside);
+  }
+  return 2.0 * nearest > size;
+}
+
+/// True if the courses are rings, in layers or with openings, about the axis.
+bool surround(const Vec3& origin, const Courses& courses, const CourseFinder& finder,
+              const Assembly& assembly) {
+  return std::ranges::any_of(courses.stones, [&](const std::vector<int>& stones) {
+    return lead_about(origin, stones, courses, finder, assembly) && is_in_the_open(origin, stones, assembly);
+  });
 }
 
 /// An axis that is the z axis but for rounding becomes that.
@@ -135,10 +187,11 @@ CourseReport set_courses(std::span<const FacePair> joints, std::span<const int> 
     sheet.turn = 0.0;
     sheet.origin = axis.value_or(middle);
     snap_to_z_axis(*assembly, &sheet);
-    sheet.closed = courses.refusal.empty() && are_rings(courses, *assembly, sheet.origin);
-    sheet.thrust_lines = sheet.closed                                             ? by_azimuth
-                         : axis || surround_an_axis(footings, size_of(*assembly)) ? radial
-                                                                                  : none;
+    const bool on_springers = surround_an_axis(footings, size_of(*assembly));
+    sheet.closed =
+        courses.refusal.empty() && (are_rings(courses, *assembly, sheet.origin) ||
+                                    (!on_springers && surround(sheet.origin, courses, finder, *assembly)));
+    sheet.thrust_lines = sheet.closed ? by_azimuth : axis || on_springers ? radial : none;
     report.kind = sheet.closed                   ? "rings about a vertical axis"
                   : sheet.thrust_lines == radial ? "from several springers or about the given axis"
                                                  : "a wall";

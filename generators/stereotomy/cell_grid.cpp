@@ -154,7 +154,10 @@ CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int 
     CUPOLA_ASSERT(!grid.cells[b].empty());
     const int row = grid.first_row(b);
     start[b] = {row, slices_in_row(grid, b, row).first, wythes_of(grid, b).first};
-    if (stage_rings > 0 && grid.ring_of(row) - surface.rings_below >= stage_rings) continue;
+    const int from_first = grid.ring_of(row) - surface.rings_below,
+              from_last = surface.num_rings() - 1 - grid.ring_of(grid.last_row(b)) + surface.rings_below;
+    const int above = surface.last_bed_held ? std::min(from_first, from_last) : from_first;
+    if (stage_rings > 0 && above >= stage_rings) continue;
     grid.built[b] = 1;
     grid.order.push_back(b);
   }
@@ -195,7 +198,8 @@ FaceKind bed_kind(const CellGrid& grid, const CellRange& range, bool upper) {
   if (below) return FaceKind::bed;
   if (above) return grid.surface.carries ? FaceKind::bed : FaceKind::top;
   const FaceKind kind = face_kind(grid, range, beyond, FaceKind::bed);
-  if (kind != FaceKind::free || !upper) return kind;
+  const bool rises = upper || (grid.surface.last_bed_held && 2 * range.row_start > grid.num_rows);
+  if (kind != FaceKind::free || !rises) return kind;
   const auto is_to_be_built = [&](int row, int slice, int wythe) {
     return grid.owner(row, slice, wythe) != kVoid;
   };

@@ -58,7 +58,7 @@ struct CellGrid {
   }
 };
 
-/// With `stage_rings` > 0 only the blocks that begin below that ring of the surface are built.
+/// With `stage_rings` > 0 only the blocks that begin in so many rings above a springing are built.
 CellGrid make_cell_grid(const SurfaceMap& surface, const BondPattern& bond, int stage_rings);
 
 /// Slices [start, end) of a block in one of its rows; end exceeds num_slices if the block crosses the seam.

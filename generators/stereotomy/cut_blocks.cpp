@@ -211,7 +211,8 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
     points.start_block(bond_block);
     for (const CellRange& range : convex_ranges(grid, bond_block)) add_parts(grid, range, &points, assembly);
   }
-  if (surface.key_stone) add_key_stone(grid, first_member, options.density, &points, assembly);
+  if (surface.key_stone && shell.stage_rings == 0)
+    add_key_stone(grid, first_member, options.density, &points, assembly);
   if (stands && surface.last_bed_held)
     add_far_support(surface, cuts, options.support_width, options.density, assembly);
   if (surface.webs > 0) cross_webs(shell, start, options, assembly);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -80,6 +82,28 @@ void join_mitre(std::span<const Storey> storeys, std::span<const MemberStart> st
 }
 
 }  // namespace
+
+void pair_mitres(std::vector<Storey>* storeys) {
+  std::map<std::string, std::vector<std::string>> copies;  // names, by the key of their member
+  for (const Storey& storey : *storeys) copies[storey.key].push_back(storey.name);
+  for (Storey& storey : *storeys)
+    for (size_t i = 0; i < storey.cuts.size(); ++i) {
+      Cut& cut = storey.cuts[i];
+      const auto other = std::ranges::find(*storeys, cut.member, &Storey::name);
+      if (cut.as != Cut::As::mitre || other == storeys->end()) continue;
+      const std::vector<std::string>&own = copies[storey.key], &names = copies[other->key];
+      if (own.size() == 1 || names.size() == 1) continue;
+      const auto copy = static_cast<size_t>(std::ranges::find(own, storey.name) - own.begin());
+      if (&own != &names && cut.member == names.front() && copy < names.size()) {
+        cut.member = names[copy];
+        continue;
+      }
+      throw InputError(fmt::format(
+          "{}.cuts[{}].member = {}: each copy is mitred with the copy of another member that has its number, "
+          "which {} does not have: name a member with as many copies, or list these members one by one",
+          storey.key, i, cut.member, storey.name));
+    }
+}
 
 void check_meetings(std::span<const Storey> storeys, std::span<const MemberStart> starts,
                     Assembly* assembly) {

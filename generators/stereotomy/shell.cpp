@@ -9,6 +9,7 @@
 #include "generators/bond/long_blocks.hpp"
 #include "generators/bond/make_bond.hpp"
 #include "generators/bond/wythe_bond.hpp"
+#include "generators/stereotomy/meetings.hpp"
 #include "generators/stereotomy/opening_places.hpp"
 #include "generators/stereotomy/placement.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -139,6 +140,7 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                            ? window_surface(member.surface, thicknesses(member.wythes), *geometry.window,
                                             courses, stage > 0 ? stage : courses, geometry.support_width)
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
+  if (stage > 0 && surface.key_stone) surface.carries = false;  // the stone is to come
   const SurfaceMap before_affine = surface;
   if (geometry.affine && surface.webs == 0) apply(*geometry.affine, &surface);
   if (surface.webs > 0 && stage > 0)
@@ -220,6 +222,7 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
   }
   copy_stack(*members[first], first_storey, &storeys);
   limit_neighbours(&storeys);
+  pair_mitres(&storeys);
   return storeys;
 }
 

@@ -224,6 +224,11 @@ ProfilePiece cubic_piece(const Vec2& a, const CurveControls& inner, const Vec2& 
 
 std::vector<ProfilePiece> polyline(const ProfileTable& points) {
   const auto& [r, z, radius, curves] = points;
+  if (r.back() > r.front() && z.back() < z.front())
+    throw InputError(
+        fmt::format("geometry.surface.profile: ends at ({:.6g}, {:.6g}) m, lower and farther from the axis "
+                    "than it begins, at ({:.6g}, {:.6g}) m: give its points from the springing upwards",
+                    r.back(), z.back(), r.front(), z.front()));
   check_crossings(r, z);
   std::vector<ProfilePiece> pieces;
   for (size_t i = 0; i + 1 < r.size(); ++i) {

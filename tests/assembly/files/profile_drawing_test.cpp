@@ -123,5 +123,28 @@ TEST(ProfileDrawing, RefusesWhatIsNoSection) {
   EXPECT_NE(message_of("<path").find("no SVG drawing"), std::string::npos);
 }
 
+std::string refusal_of_heading(const std::string& heading) {
+  const std::string path = test::fresh_folder("csv") + "/section.csv";
+  std::ofstream(path) << heading << "\n2,0\n1.5,1.3\n0,2\n";
+  try {
+    EXPECT_EQ(read_profile_table(path).z, (std::vector<double>{0.0, 1.3, 2.0})) << heading;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// Columns are read by their place.
+TEST(ProfileTable, HasItsColumnsInTheOrderOfItsHeading) {
+  for (const char* heading :
+       {"# r, z", "r,z", "r z radius", "r (m), z (m), radius (m)", "\"r_m\",\"z_m\"", "r\tz"})
+    EXPECT_EQ(refusal_of_heading(heading), "") << heading;
+  for (const char* heading : {"z,r", "z,r,radius", "r,radius,z", "x,y", "r", "r,z,radius,name"})
+    EXPECT_NE(refusal_of_heading(heading).find(
+                  "section.csv:1:1: error: the columns must be r, z and perhaps radius"),
+              std::string::npos)
+        << heading << ": " << refusal_of_heading(heading);
+}
+
 }  // namespace
 }  // namespace cupola::profile_drawing_test

@@ -25,12 +25,12 @@ namespace {
 
 using SupportRule = ImportedBlocks::SupportRule;
 
-/// A model that comes back from a file without its names, courses and kinds of faces.
+/// A model that comes back from a file without its names and kinds of faces, and without its courses from OBJ.
 Assembly imported(const std::string& folder, const Assembly& original, SupportRule rule,
-                  GenerateReport* report) {
+                  GenerateReport* report, const std::string& file = "model.obj") {
   Case scene;
   scene.geometry.imported.emplace();
-  scene.geometry.imported->path = test::fresh_folder(folder) + "/model.obj";
+  scene.geometry.imported->path = test::fresh_folder(folder) + "/" + file;
   scene.geometry.imported->fixed_by = rule;
   write_export(scene.geometry.imported->path, {original, {}, {}});
   return generate(scene, report);
@@ -236,6 +236,68 @@ TEST(Courses, OfAWallOnThreeFootingsHaveNoAxis) {
   EXPECT_EQ(report.model.num_supports, 3);
   EXPECT_EQ(report.import->courses.kind, "a wall");
   EXPECT_TRUE(wall.sheets.empty() || wall.sheets.front().thrust_lines == Sheet::ThrustLines::none);
+}
+
+/// The outside of each stone is that of the generated one, and opposite sides of the model have opposite ones.
+void expect_same_outside(const Assembly& original, const Assembly& found) {
+  constexpr double kRounding = 1e-9;  // of areas, from coordinates that were written with 17 digits
+  std::vector<double> area(original.blocks.size(), 0.0), expected = area;
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [assembly, of_blocks] : {std::pair(&found, &area), std::pair(&original, &expected)})
+    for (const Part& part : assembly->parts)
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+        if (assembly->blocks[part.block].fixed || assembly->face_kinds[f] != FaceKind::extrados) continue;
+        const std::vector<Vec3> polygon = face_points(*assembly, f);
+        (*of_blocks)[part.block] += polygon_area(polygon);
+        if (assembly == &found) sum += polygon_area(polygon) * polygon_plane(polygon).normal;
+      }
+  for (size_t b = 0; b < area.size(); ++b) EXPECT_NEAR(area[b], expected[b], kRounding) << b;
+  EXPECT_NEAR(sum.head<2>().norm(), 0.0, kRounding * static_cast<double>(area.size()));
+}
+
+// The courses beside the windows are chains. Stones at their ends, and single ones, have an outside, too.
+TEST(Courses, OfADrumWithWindowsAreRings) {
+  const Member drum = octagonal_drum(10.0, 3.0, 0.6, RunningBond{6, 24, 2});
+  Case c;
+  c.geometry.surface = drum.surface;
+  c.geometry.bond = drum.bond;
+  Openings windows;
+  windows.width = 1.0;
+  windows.height = 1.0;
+  windows.sill = 0.5;
+  windows.bearing = 0.3;
+  c.geometry.openings = {windows};
+  const Assembly original = cut_assembly(c);
+  GenerateReport report;
+  const Assembly found = imported("windows", original, SupportRule::lowest, &report);
+  EXPECT_EQ(report.import->courses.kind, "rings about a vertical axis") << report.import->courses.refusal;
+  EXPECT_EQ(found.num_rings, 6);
+  expect_same_outside(original, found);
+}
+
+// Joints lead round the middle of the wall, which is masonry. Its stones run along it, not to the other leaf.
+// They have neighbours beside and behind them, so that only the file can number the courses.
+TEST(Courses, OfAWallInTwoLeavesAreNoRings) {
+  Case c = wall_case(4, 8);
+  for (const char* leaf : {"back", "front"})
+    c.geometry.wythes.push_back({leaf, {{}, {0.3}}, RunningBond{4, 8, 2}, {}});
+  Bonders headers;
+  headers.name = "header";
+  headers.from = "back";
+  headers.to = "front";
+  headers.per_ring = 4;
+  headers.at = {0.5};
+  headers.width = 0.2;
+  c.geometry.bonders = {headers};
+  const Assembly original = cut_assembly(c);
+  GenerateReport report;
+  const Assembly found = imported("leaves", original, SupportRule::lowest, &report, "model.json");
+  EXPECT_EQ(report.import->courses.kind, "a wall") << report.import->courses.refusal;
+  expect_one_outside(found);
+  for (const FaceKind skin : {FaceKind::intrados, FaceKind::extrados}) {
+    const std::vector<double> expected = areas(original, skin), is = areas(found, skin);
+    for (size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(is[k], expected[k], 1e-9) << k;  // 17 digits
+  }
 }
 
 TEST(Courses, OutwardIsAwayFromAGivenAxis) {

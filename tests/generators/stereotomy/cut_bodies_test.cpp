@@ -325,6 +325,27 @@ TEST(CutBodies, AMitreIsRefusedWhereTheMembersDoNotMeet) {
       << message_of(corridor({5.0, 5.0, 0.0}));
 }
 
+TEST(CutBodies, AMitreOfACopyCutsTheCopyOfTheOtherMember) {
+  const Case one = corridor({-3.0, 5.0, 0.0});
+  ModelReport report;
+  const double volume = volume_of(one, &report);
+  Case row = one, image = one, alone = one, itself = one;
+  for (Member& member : row.geometry.members) member.copies = Copies{2, std::nullopt, {0.0, 20.0, 0.0}};
+  for (Member& member : image.geometry.members) member.mirror = Mirror{{0.0, -3.0, 0.0}, {0.0, 1.0, 0.0}};
+  for (const Case& two : {row, image}) {
+    EXPECT_NEAR(volume_of(two, &report), 2.0 * volume, 1e-11);  // rounding of coordinates up to 30 m
+    EXPECT_EQ(report.islands, 2);
+  }
+  alone.geometry.members[0].copies = Copies{3, std::nullopt, {0.0, 20.0, 0.0}};
+  alone.geometry.members[1].copies = Copies{2, std::nullopt, {0.0, 20.0, 0.0}};
+  itself.geometry.members[0].copies = Copies{4, Vec3(-3.0, 5.0, 0.0), Vec3::Zero()};
+  itself.geometry.members[0].cuts[0].member = "first 2";
+  for (const auto& [refused, who] : {std::pair(&alone, "first 3"), std::pair(&itself, "first")})
+    EXPECT_NE(message_of(*refused).find("that has its number, which " + std::string(who) + " does not have"),
+              std::string::npos)
+        << message_of(*refused);
+}
+
 TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
   EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes nothing"),
             std::string::npos);

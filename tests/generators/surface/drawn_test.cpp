@@ -337,6 +337,48 @@ TEST(DrawnProfile, DrawsTheNamedKinds) {
       }
 }
 
+/// m2, of upper beds that await the next course, of blocks on either side of x = 0.
+std::pair<double, double> tops(const Assembly& assembly) {
+  std::pair<double, double> area;
+  for (const Part& part : assembly.parts)
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      if (assembly.face_kinds[f] == FaceKind::top)
+        (assembly.blocks[part.block].centroid.x() < 0.0 ? area.first : area.second) +=
+            polygon_area(face_points(assembly, f));
+  return area;
+}
+
+TEST(DrawnStage, HasNoKeyStone) {
+  Case scene = case_of(vault_on(Plan::Kind::circle, profile_of(Kind::semicircle)));
+  std::get<VaultSurface>(scene.geometry.surface).key_stone = true;
+  for (const int rings : {3, 8}) {
+    scene.geometry.stage = Stage{rings};
+    ModelReport report;
+    const Assembly assembly = check_and_report(scene, &report);
+    EXPECT_EQ(report.num_blocks, rings * 16);
+    EXPECT_EQ(report.islands, 1);
+    EXPECT_GT(tops(assembly).first, 0.0) << "the last bed is free";
+  }
+}
+
+TEST(DrawnStage, OfABarrelRisesFromBothSpringings) {
+  Case scene = case_of(vault_on(Plan::Kind::line, profile_of(Kind::semicircle)), 9);
+  for (const int rings : {3, 5}) {
+    scene.geometry.stage = Stage{rings};
+    ModelReport report;
+    const Assembly assembly = check_and_report(scene, &report);
+    EXPECT_EQ(report.num_blocks, rings == 3 ? 4 * 16 + 2 * 17 : 5 * 16 + 4 * 17);  // half blocks in odd rings
+    EXPECT_TRUE(report.blocks_without_joint.empty());
+    Vec3 moment = Vec3::Zero();
+    for (const Block& block : assembly.blocks)
+      if (!block.fixed) moment += block.volume * block.centroid;
+    EXPECT_NEAR(moment.x(), 0.0, 1e-12);  // rounding of volumes below 1 m3 at 5 m
+    const auto [left, right] = tops(assembly);
+    EXPECT_NEAR(left, right, 1e-12);
+    EXPECT_EQ(left > 0.0, rings == 3);
+  }
+}
+
 std::string error_of(const VaultSurface& surface, int rings = 8) {
   try {
     generate(case_of(surface, rings));
@@ -353,6 +395,12 @@ TEST(DrawnErrors, NameTheKeyAndThePlace) {
             std::string::npos);
   EXPECT_NE(error_of(open).find("a solid tip on level beds is loads.lantern: {weight: N}"),
             std::string::npos);
+  for (const Plan::Kind plan : {Plan::Kind::line, Plan::Kind::circle})
+    EXPECT_NE(
+        error_of(vault_on(plan, chain_of({1, 3, 4}, {4, 3, 0})))
+            .find("profile: ends at (4, 0) m, lower and farther from the axis than it begins, at (1, 4) m"),
+        std::string::npos)
+        << error_of(vault_on(plan, chain_of({1, 3, 4}, {4, 3, 0})));
   VaultSurface level = vault_on(Plan::Kind::circle, profile_of(Kind::semicircle));
   level.eye = 1.0;
   level.key_stone = true;
