@@ -269,6 +269,13 @@ bool is_rigid(const Evaluation& e) {
   return is_limit(e) || !e.summary.ranges.empty();
 }
 
+bool supports_have_not_moved(const Evaluation& e) {
+  return e.last.frame.role == FrameRole::equilibrium &&
+         std::ranges::any_of(e.scene.supports.moves, [](const SupportMove& move) {
+           return varies(move.time) && factor_at(move.time, 0.0) == 0.0;
+         });
+}
+
 bool at_rest(const Evaluation& e) {
   switch (e.last.frame.role) {
     case FrameRole::equilibrium:

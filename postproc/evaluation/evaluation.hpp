@@ -103,6 +103,9 @@ bool at_rest(const Evaluation& evaluation);
 
 bool is_limit(const Evaluation& evaluation);
 
+/// True if supports move in time, and the forces are those at the time 0, before they do.
+bool supports_have_not_moved(const Evaluation& evaluation);
+
 /// True if joints are taken as rigid, in limits and ranges, so that their gaps are not the widths of cracks.
 bool is_rigid(const Evaluation& evaluation);
 

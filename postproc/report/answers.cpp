@@ -133,15 +133,6 @@ std::string undecided_text(int sought, int decided) {
                      sought - decided == 1 ? "is" : "are");
 }
 
-/// An equilibrium by itself has loads and supports as they are at the time 0: its cracks are not those of
-/// supports that move later.
-bool supports_have_not_moved(const Evaluation& e) {
-  return e.last.frame.role == FrameRole::equilibrium &&
-         std::ranges::any_of(e.scene.supports.moves, [](const SupportMove& move) {
-           return varies(move.time) && factor_at(move.time, 0.0) == 0.0;
-         });
-}
-
 /// ", the widest 25 as 12 cracks over 14 m, none through the shell": hairlines form no crack.
 std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
   if (cracks.empty()) return "";

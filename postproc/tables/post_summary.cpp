@@ -181,7 +181,7 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   if (force > 0.0) s->mean_kern_use = above(kern / force, e.last.joints.floor.share);
   s->crack_length_m = 0.0;
   for (const Crack& crack : e.joint_cracks) *s->crack_length_m += crack.extent;
-  if (!is_rigid(e)) {
+  if (!is_rigid(e) && !supports_have_not_moved(e)) {
     s->widest_crack_m = 0.0;
     for (const Crack& crack : e.joint_cracks) raise(&s->widest_crack_m, crack.widest_gap);
   }

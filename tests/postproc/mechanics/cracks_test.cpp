@@ -99,7 +99,8 @@ TEST(Cracks, AreNotThoseOfSupportsThatHaveNotMoved) {
   EXPECT_NE(widest, "none") << "moved from the start";
   e.scene.supports.moves[0].time = RampInTime{};
   EXPECT_EQ(crack_answer(e).value().value, "not computed");
-  e.summary.analysis = AnalysisType::path;
+  EXPECT_FALSE(post_summary(e).widest_crack_m);
+  e.last.frame.role = FrameRole::path;
   EXPECT_EQ(crack_answer(e).value().value, widest) << "of a path, which follows the movement";
 }
 
