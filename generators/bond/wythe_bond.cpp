@@ -86,7 +86,8 @@ double middle_of_slice(const BondPattern& pattern, int slice) {
   return 0.5 * (pattern.cuts[slice] + pattern.cuts[slice + 1]);
 }
 
-/// Lays a wythe in its courses. Its blocks follow those laid before.
+/// Lays a wythe in its courses, of one or more rings of the pattern each: those whose middle lies in its
+/// range. Its blocks follow those laid before.
 void lay_wythe(const Wythe& wythe, const BondPattern& own, int index, const BondGrid& grid,
                const std::vector<double>& heights, BondPattern* pattern) {
   const int offset = static_cast<int>(pattern->blocks.size()), courses = pattern->num_rings / own.num_rings;
@@ -97,9 +98,9 @@ void lay_wythe(const Wythe& wythe, const BondPattern& own, int index, const Bond
   for (int slice = 0; slice < pattern->num_slices(); ++slice) {
     const int from = slice_at(own, middle_of_slice(*pattern, slice), grid);
     for (int ring = 0; ring < pattern->num_rings; ++ring) {
-      const int block = own.at(ring / courses, from);
-      if (block != kVoid && wythe.where.contains(heights[ring]))
-        pattern->at(ring, slice, index) = offset + block;
+      const int block = own.at(ring / courses, from), first = ring - ring % courses;
+      const double middle = 0.5 * (heights[first] + heights[first + courses - 1]);
+      if (block != kVoid && wythe.where.contains(middle)) pattern->at(ring, slice, index) = offset + block;
     }
   }
 }

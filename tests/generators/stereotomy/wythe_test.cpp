@@ -80,6 +80,14 @@ INSTANTIATE_TEST_SUITE_P(Surfaces, OneWythe,
                                          Surface{ArchSurface{}}, Surface{WallSurface{}}),
                          test_names({"dome", "octagonal_vault", "arch", "wall"}));
 
+// The front has courses of 12 cm, the back of 6: up to 0.29 m lie the middles of two of the front.
+TEST(Wythes, EndBetweenTheirOwnCourses) {
+  Case c = two_leaves(8);
+  c.geometry.wythes[1].bond = RunningBond{4, 10, 2};
+  c.geometry.wythes[1].where.to = 0.29;
+  EXPECT_NEAR(volumes(generate(c)).at("front"), 2.4 * 0.12 * 0.24, 1e-12);
+}
+
 TEST(Wythes, OfAStretcherBondAreTwoWallsSideBySide) {
   ModelReport report;
   const Assembly assembly = check_and_report(two_leaves(4), &report);
