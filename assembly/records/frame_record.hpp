@@ -61,7 +61,7 @@ void contact_pose_fields(Visitor&& visit, Is<BlockTable> auto& b) {
 template <class Visitor>
 void fields(Visitor&& visit, Is<TieTable> auto& t) {
   visit("chain", "", "chain of which it is a bar; -1: none", t.chain);
-  visit("block_a", "", "first of the two blocks, a < b", t.block_a);
+  visit("block_a", "", "first of the two blocks, a < b; of a restraint the first fixed block", t.block_a);
   visit("block_b", "", "second block", t.block_b);
   visit("force_N", "N", "tension; of a strut thrust", t.force);
   visit("yield_force_N", "N", "tension at which it elongates plastically; infinity: elastic without limit",

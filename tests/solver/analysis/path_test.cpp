@@ -114,7 +114,8 @@ TEST(Path, ChoosesItsControl) {
       run(*scene, assembly);
       ADD_FAILURE() << "no control was missed";
     } catch (const InputError& error) {
-      EXPECT_NE(std::string(error.what()).find("moves by its centroid"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("the centroid of a support"), std::string::npos)
+          << error.what();
     }
   }
 }
