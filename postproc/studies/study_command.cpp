@@ -48,6 +48,7 @@ std::vector<MeasuredTable> add_tables(const Study& study, RunCache& runs, StudyP
     }
     tables.push_back({table, table.columns.empty() ? printed_table(table, page->folder() + "/script.csv")
                                                    : measured_table(table, runs)});
+    if (tables.back().table.rows.empty()) continue;  // none of its runs applies to the case
     page->add("<h2>" + html_text(table.name) + "</h2>\n");
     page->add_table(tables.back().table);
     *text += aligned_text(tables.back().table) + "\n";

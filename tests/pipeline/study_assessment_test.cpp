@@ -67,5 +67,15 @@ TEST(Assessment, SaysWhyAPartWasNotComputed) {
       << run.err;
 }
 
+// A case that moves its supports itself has no settlements: their table is left out.
+TEST(Assessment, ShowsNoTableWithoutRuns) {
+  const ProgramFolder folder;
+  const std::string moves = "supports: {moves: [{blocks: [0], displacement: [0, 0, -0.001]}]}\n";
+  EXPECT_EQ(assess(folder, kArch + moves).code, 0);
+  const std::string page = slurp(folder.file("out/bridge_assessment/study.html"));
+  EXPECT_NE(page.find("settled</strong>: the case moves its supports itself"), std::string::npos);
+  EXPECT_EQ(page.find("<h2>settlements</h2>"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cupola::assessment_test
