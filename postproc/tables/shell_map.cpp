@@ -158,8 +158,9 @@ std::vector<ShellMap> shell_maps(const Evaluation& e) {
   for (int wythe = 0; wythe < e.shell.num_wythes; ++wythe) {
     const Sheet* of_wythe = sheet_of_wythe(e, wythe);
     const Sheet& sheet = of_wythe ? *of_wythe : last;
-    const bool closed = sheet.thrust_lines == Sheet::ThrustLines::by_azimuth;
-    maps.push_back({closed,
+    const bool about_axis = sheet.thrust_lines == Sheet::ThrustLines::by_azimuth ||
+                            sheet.thrust_lines == Sheet::ThrustLines::radial;
+    maps.push_back({about_axis,
                     std::min(sheet.first_ring + sheet.num_rings, e.shell.num_rings()),
                     {},
                     named ? e.assembly.members[wythe] : "",

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "assembly/files/summary_file.hpp"
+#include "postproc/tables/shell_map.hpp"
 #include "tests/pipeline/program_run.hpp"
 
 namespace cupola::groin_vault_test {
@@ -95,6 +97,28 @@ TEST(GroinVaultRuns, SlidesUnderCoulombsLawAfterFewIterations) {
   EXPECT_EQ(associated.status, Status::stable) << associated.message;
   EXPECT_EQ(coulomb.status, Status::moving_unproven) << coulomb.message;
   EXPECT_LT(coulomb.iterations, 2000);
+}
+
+// Its map was "the wall from the front": each box hid the one of the web behind it.
+TEST(GroinVaultRuns, TheMapShowsItsWebsBesideEachOther) {
+  const ProgramFolder folder;
+  ASSERT_EQ(folder.run("cupola-generate " + kCase + " --output a.vtu" + kCoarse).code, 0);
+  solve(folder, kCase, kCoarse);
+  const ProgramRun post = folder.run("cupola-post analyse " + kCase + kCoarse +
+                                     " --assembly a.vtu --results results --output post --tables");
+  ASSERT_EQ(post.code, 0) << post.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.file("post/wall.csv")));
+  const std::vector<ShellMap> maps = read_shell_maps(folder.file("post"));
+  ASSERT_EQ(maps.size(), 1u);
+  EXPECT_TRUE(maps[0].vault);
+  const std::vector<ShellBox>& boxes = maps[0].boxes;
+  ASSERT_GT(boxes.size(), 40u);
+  for (const ShellBox& a : boxes)
+    for (const ShellBox& b : boxes) {
+      if (a.ring != b.ring || a.block >= b.block) continue;
+      EXPECT_LT(std::min(a.to, b.to) - std::max(a.from, b.from), 1e-6)  // deg; the table has twelve digits
+          << a.block << " and " << b.block;
+    }
 }
 
 }  // namespace
