@@ -219,11 +219,12 @@ std::string arch_panels(const MeridianEvaluation& m, const ForceUnit& unit, cons
       {band(0.57, 0.95), band(0.41, 0.51), band(0.245, 0.345), band(0.08, 0.18)},
       {"set size ratio -1\nset ylabel 'height (m)'\nset key at screen 0.5,0.995 center top horizontal\n" +
            profile,
-       fmt::format("{4}set size noratio\nset key inside top center vertical\nset ylabel 'resultant "
-                   "({2})'\nset yrange [0:*]\n"
-                   "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', "
-                   "$graphs using 1:(abs($3)) w l lc rgb '{1}' dt 2 title 'v: vertical'{3}\n",
-                   kBlue, kOrange, unit.name, wythes.resultant, few_ticks('y', graphs.resultant, kSteps)),
+       fmt::format(
+           "{4}set size noratio\nset key at graph 0.5,1.02 center bottom horizontal\nset ylabel 'resultant "
+           "({2})'\nset yrange [0:*]\n"
+           "plot $graphs using 1:2 w lp lc rgb '{0}' pt 7 ps 0.4 title 'r: norm', "
+           "$graphs using 1:(abs($3)) w l lc rgb '{1}' dt 2 title 'v: vertical'{3}\n",
+           kBlue, kOrange, unit.name, wythes.resultant, few_ticks('y', graphs.resultant, kSteps)),
        fmt::format("{}set ylabel 'couple length (m)'\nset yrange [0:{}]\n"
                    "plot $graphs using 1:4 w lp lc rgb '{}' pt 7 ps 0.4 notitle{}\n",
                    few_ticks('y', wythes.couple.empty() ? couple : 0.0, kSteps),
