@@ -17,6 +17,13 @@
 namespace cupola {
 namespace {
 
+/// m
+double largest_coordinate(const Assembly& assembly) {
+  double largest = 0.0;
+  for (const Vec3& v : assembly.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  return largest;
+}
+
 double model_size(const Assembly& assembly) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const Vec3& v : assembly.vertices) {
@@ -168,7 +175,9 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   std::vector<NarrowJoint> narrow;
   Overlaps overlaps;
   DisjointSets islands(assembly.blocks.size());
-  const double good_enough = std::min(tolerances.overlap, generated_tolerances(assembly).overlap);
+  const ModelTolerances rounding = generated_tolerances(assembly);
+  const double good_enough = std::min(tolerances.overlap, rounding.overlap);
+  const double no_width = std::max(kNoWidth * tolerances.joint_width, rounding.joint_width);
   report->max_overlap = -std::numeric_limits<double>::infinity();
   visit_near_pairs(assembly, tolerances.joint_gap, [&](int p, int q) {
     const int a = std::min(assembly.parts[p].block, assembly.parts[q].block);
@@ -194,7 +203,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
       report->max_joint_gap = std::max(report->max_joint_gap, meeting->gap);
       joints.emplace_back(a, b);
       if (tolerances.part_by_part) report->joint_faces.push_back({p, q, meeting->face_a, meeting->face_b});
-    } else if (meeting && meeting->width > kNoWidth * tolerances.joint_width) {
+    } else if (meeting && meeting->width > no_width) {
       narrow.push_back({a, b, meeting->width});
     } else if (!meeting && tolerances.part_by_part) {
       touching.emplace_back(a, b);
@@ -230,8 +239,12 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
 }  // namespace
 
 ModelTolerances generated_tolerances(const Assembly& assembly) {
-  const double size = model_size(assembly);
-  return {1e-13 * size, 2e-11 * size, 2e-11 * size, 2e-11 * size, 1e-6, false};
+  // Far from the origin coordinates are rounded to more than these shares of the model.
+  constexpr double kRoundings = 16.0;
+  const double size = model_size(assembly),
+               rounding = kRoundings * std::numeric_limits<double>::epsilon() * largest_coordinate(assembly);
+  const double touch = std::max(2e-11 * size, rounding);
+  return {std::max(1e-13 * size, rounding), touch, touch, touch, 1e-6, false};
 }
 
 ModelTolerances imported_tolerances(const Assembly& assembly, double facet_angle, const JointRule& rule) {
@@ -272,12 +285,12 @@ ModelReport check_model(const Assembly& assembly, const ModelTolerances& toleran
 std::string to_text(const ModelReport& r) {
   std::string text = fmt::format(
       "{} in {}, {}, {}, {}\n"
-      "volume {:.6f} m3, blocks {:.4g} to {:.4g} m3\n",
+      "volume {:.9g} m3, blocks {:.4g} to {:.4g} m3\n",
       counted(r.num_blocks, "block"), counted(r.num_parts, "convex part"), counted(r.num_supports, "support"),
       counted(r.num_joints, "joint"), counted(r.islands, "connected component"), r.volume, r.smallest_block,
       r.largest_block);
   if (r.shell_volume)
-    text += fmt::format("smooth shell {:.6f} m3; the facets reduce it by a fraction of {:.3e}\n",
+    text += fmt::format("smooth shell {:.9g} m3; the facets reduce it by a fraction of {:.3e}\n",
                         *r.shell_volume, 1.0 - r.volume / *r.shell_volume);
   text += fmt::format(
       "largest errors: convexity {:.1e} m, planarity {:.1e} m, overlap of blocks {:.1e} m, gap in a "

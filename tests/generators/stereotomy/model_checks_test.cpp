@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/case_reader.hpp"
 #include "generators/generate.hpp"
 #include "tests/generators/models.hpp"
 
@@ -120,6 +121,31 @@ TEST(ModelChecks, CountIslandsAndBlocksWithoutJoint) {
   const ModelReport report = check_model(wall, generated_tolerances(wall));
   EXPECT_EQ(report.islands, 2);
   EXPECT_EQ(report.blocks_without_joint, std::vector<int>{10});
+}
+
+// A dome of 4 m was refused 2.8 km from the origin: "a vertex lies 9.09e-13 m off the plane of its face".
+TEST(ModelChecks, AllowForTheRoundingOfCoordinatesFarFromTheOrigin) {
+  for (const double away : {2e3, 1e5, 5.4e6}) {
+    Case c = dome_case(8, 12);
+    c.geometry.at = Place{{away, -away, 0.0}, 20.0};
+    ModelReport report;
+    check_and_report(c, &report);
+    EXPECT_TRUE(report.narrow_joints.empty()) << away;
+  }
+}
+
+// Rounding made joints of 2e-14 m, which are no narrow joints to warn of.
+TEST(ModelChecks, DoNotWarnOfTheRoundingOfHeights) {
+  for (const double height : {0.0, 300.0, 2600.0}) {
+    Case c = read_case(CUPOLA_SOURCE_DIR "/cases/barrels_corner.yaml");
+    for (Member& member : c.geometry.members) {
+      if (!member.at) member.at.emplace();
+      member.at->origin.z() += height;
+    }
+    ModelReport report;
+    check_and_report(c, &report);
+    EXPECT_TRUE(warnings_of(report).empty()) << height;
+  }
 }
 
 }  // namespace
