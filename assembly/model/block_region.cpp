@@ -26,6 +26,24 @@ void check_blocks(const BlockRegion& region, const Assembly& assembly, bool fixe
   }
 }
 
+/// The sheet of a member, or of the next that has blocks; null without sheets.
+const Sheet* sheet_of_member(const Assembly& assembly, int member) {
+  const Block* nearest = nullptr;
+  for (const Block& block : assembly.blocks)
+    if (!block.fixed && block.member >= member && (!nearest || block.member < nearest->member))
+      nearest = &block;
+  return nearest ? assembly.sheet_of(nearest->ring) : nullptr;
+}
+
+/// True if a fixed block bears this member, given by its name or by that of any of its wythes.
+bool bears(const Assembly& assembly, const Block& support, const std::string& member) {
+  if (is_of_member(assembly, support, member)) return true;
+  const Sheet* sheet = sheet_of_member(assembly, support.member);
+  const auto named = std::ranges::find(assembly.members, member);
+  if (!sheet || named == assembly.members.end()) return sheet && sheet->name == member;
+  return sheet == sheet_of_member(assembly, static_cast<int>(named - assembly.members.begin()));
+}
+
 /// rad, of the centroid about the z axis.
 double azimuth_of(const Assembly& assembly, int block, const std::string& key) {
   const Block& b = assembly.blocks[block];
@@ -48,13 +66,17 @@ bool is_in(const Sector& sector, double azimuth) {
 
 std::vector<RegionBlock> blocks_of_region(const BlockRegion& region, const Assembly& assembly, bool fixed,
                                           const std::string& key) {
-  check_member_exists(assembly, region.member, key);
+  const bool is_sheet =
+      fixed && !assembly.members.empty() &&
+      std::ranges::find(assembly.sheets, region.member, &Sheet::name) != assembly.sheets.end();
+  if (!is_sheet) check_member_exists(assembly, region.member, key);
   check_blocks(region, assembly, fixed, key);
   std::vector<RegionBlock> found;
   for (int block = 0; block < static_cast<int>(assembly.blocks.size()); ++block) {
     const Block& b = assembly.blocks[block];
     const auto is_it = [block](const BlockRef& one) { return one.number == block; };
-    if (b.fixed != fixed || !is_of_member(assembly, b, region.member) ||
+    if (b.fixed != fixed ||
+        !(fixed ? bears(assembly, b, region.member) : is_of_member(assembly, b, region.member)) ||
         (!region.blocks.empty() && std::ranges::none_of(region.blocks, is_it)))
       continue;
     if (region.sector && !is_in(*region.sector, azimuth_of(assembly, block, key))) continue;

@@ -221,6 +221,8 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
       assembly->vertices[v] = shell.affine->image(assembly->vertices[v]);
   const double gap = options.imperfections ? options.imperfections->gap : 0.0;
   cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, gap, assembly);
+  for (size_t b = start.block; b < assembly->blocks.size(); ++b)
+    if (assembly->blocks[b].fixed) assembly->blocks[b].member = first_member;
   place(shell, first_vertex, first_face, assembly);
   if (shell.is_reflected() && surface.sail_width > 0.0) reflect_sails(num_sails_of(surface), start, assembly);
   assembly->num_rings = surface.rings_below + shell.num_rings();

@@ -342,6 +342,22 @@ TEST(Members, StandOnTheirOwnSupportsOnly) {
       }
 }
 
+// The fixed ring of each tower, and the block that holds one at a cut, have the member that they bear.
+TEST(Members, HaveTheirOwnSupports) {
+  Member east = tower("east", 6.0), west = tower("west", 6.0);
+  west.at = Place{{-11.0, 0.0, 0.0}, 0.0};
+  Cut held;
+  held.point = Vec3(2.0, 0.0, 0.0);
+  held.normal = Vec3::UnitX();
+  held.as = Cut::As::held;
+  west.cuts = {held};
+  const Assembly assembly = generate(members_case({east, west}));
+  std::vector<std::string> bears;
+  for (const Block& block : assembly.blocks)
+    if (block.fixed) bears.push_back(assembly.members.at(block.member));
+  EXPECT_EQ(bears, (std::vector<std::string>{"east", "west", "west"}));
+}
+
 TEST(Members, AreRefusedWithTheirNames) {
   Member low = tower("low", 10.0), wide = tower("wide", 20.0), beside = tower("beside", 10.0);
   wide.on = "low";

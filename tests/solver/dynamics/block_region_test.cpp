@@ -1,5 +1,6 @@
 #include "assembly/model/block_region.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -75,6 +76,28 @@ TEST(SupportRegion, SectorsIncludeTheirEndsAndCrossZero) {
   EXPECT_EQ(blocks_in(315, 360), (std::vector{0, 7}));
   EXPECT_EQ(blocks_in(100, 170), (std::vector{3}));
   EXPECT_EQ(blocks_in(0, 360).size(), 8u);
+}
+
+// The fixed blocks under the wythes of a member bear all of them.
+TEST(SupportRegion, OfAMemberWithWythesIsNamedByEach) {
+  Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .fixed = true},
+                                           {.center = {0, 0, 0.5}},
+                                           {.center = {0, 1, 0.5}},
+                                           {.center = {9, 0, -0.5}, .fixed = true},
+                                           {.center = {9, 0, 0.5}, .ring = 1},
+                                           {.center = {9, 1, 0.5}, .ring = 1}});
+  const std::array<int, 6> members{0, 0, 1, 2, 2, 3};
+  for (size_t b = 0; b < members.size(); ++b) assembly.blocks[b].member = members[b];
+  assembly.members = {"drum inner", "drum outer", "inner", "outer"};
+  assembly.num_rings = 2;
+  assembly.sheets = {{.name = "drum", .num_rings = 1}, {.name = "dome", .first_ring = 1, .num_rings = 1}};
+  const auto support_of = [&](const std::string& member) {
+    const std::vector<RegionBlock> found = blocks_of_region({.member = member}, assembly, true, "key");
+    return found.size() == 1 ? found.front().block : -1;
+  };
+  for (const char* member : {"drum", "drum inner", "drum outer"}) EXPECT_EQ(support_of(member), 0) << member;
+  for (const char* member : {"dome", "inner", "outer"}) EXPECT_EQ(support_of(member), 3) << member;
+  EXPECT_THROW(blocks_of_region({.member = "drum"}, assembly, false, "key"), InputError) << "free blocks";
 }
 
 TEST(SupportRegion, ErrorsNameWhatIsThere) {
