@@ -95,7 +95,7 @@ std::vector<std::string> names_of(const Geometry& geometry, const Member& member
   if (&member != &last_member(geometry))
     for (std::string& name : names) name = member.name + " " + name;
   const bool alone =
-      members_of(geometry).size() == 1 && !geometry.copies && !geometry.mirror && member.openings.empty();
+      members_of(geometry).size() == 1 && !member.copies && !member.mirror && member.openings.empty();
   if (names.empty() && !alone) names = {member.name};
   return names;
 }

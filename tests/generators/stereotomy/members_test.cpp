@@ -358,6 +358,15 @@ TEST(Members, HaveTheirOwnSupports) {
   EXPECT_EQ(bears, (std::vector<std::string>{"east", "west", "west"}));
 }
 
+TEST(Members, OfOneEntryHaveNamesIfItIsRepeated) {
+  Member copied = tower("v", 3.0), mirrored = copied;
+  EXPECT_TRUE(generate(members_case({copied})).members.empty());
+  copied.copies = Copies{.count = 2, .by = Vec3(0.0, 7.0, 0.0)};
+  mirrored.mirror = Mirror{{6.0, 0.0, 0.0}, Vec3::UnitX()};
+  for (const Member& member : {copied, mirrored})
+    EXPECT_EQ(generate(members_case({member})).members, (std::vector<std::string>{"v", "v 2"}));
+}
+
 TEST(Members, AreRefusedWithTheirNames) {
   Member low = tower("low", 10.0), wide = tower("wide", 20.0), beside = tower("beside", 10.0);
   wide.on = "low";
