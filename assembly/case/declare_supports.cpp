@@ -67,7 +67,7 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
 
 void declare_sector(Section& s, Sector& sector) {
   s.required_number("from_deg", sector.from_deg, {.unit = "deg", .min = -360, .max = 360},
-                    "azimuth about the z axis, from the x axis, at which the sector begins");
+                    "azimuth about the axis of the vault, from its x axis, at which the sector begins");
   s.required_number("to_deg", sector.to_deg, {.unit = "deg", .min = -360, .max = 720},
                     "azimuth at which it ends, counter-clockwise");
   s.rule(sector.to_deg > sector.from_deg && sector.to_deg - sector.from_deg <= 360.0, "to_deg",
@@ -76,15 +76,15 @@ void declare_sector(Section& s, Sector& sector) {
 
 void declare_profile(Section& s, AzimuthProfile& profile) {
   s.required_integer("cos", profile.waves, {.min = 1, .max = 1000},
-                     "waves m around the z axis: the factor is cos(m (azimuth - phase))");
-  s.number("phase_deg", profile.phase_deg, {.unit = "deg"}, "azimuth of a crest, from the x axis");
+                     "waves m around the axis of the vault: the factor is cos(m (azimuth - phase))");
+  s.number("phase_deg", profile.phase_deg, {.unit = "deg"}, "azimuth of a crest, from its x axis");
 }
 
 void declare_move(Section& s, SupportMove& move) {
   declare_region(s, move.region, "the fixed blocks that move; empty: all fixed blocks");
   s.vector3("displacement", move.displacement, {.unit = "m"}, "displacement");
   s.number("outward", move.outward, {.unit = "m"},
-           "displacement of each block away from the axis of the masonry, horizontally, in addition");
+           "displacement of each block away from the axis of the vault on it, horizontally, in addition");
   s.number("tilt_deg", move.tilt_deg, {.unit = "deg"},
            "rotation of each block about its centroid, by which its top turns outwards, in addition");
   s.vector3("rotation_deg", move.rotation_deg, {.unit = "deg"}, "rotation vector");

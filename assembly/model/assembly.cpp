@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "assembly/model/outward.hpp"
 
 namespace cupola {
 namespace {
@@ -87,7 +86,7 @@ const Sheet* Assembly::vault_of(int ring) const {
 
 Vec3 Assembly::outward(int ring, const Vec3& point) const {
   const Sheet* vault = vault_of(ring);
-  return vault ? vault->outward(point).value() : outward_at(point, false);
+  return vault ? vault->outward(point).value() : Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 void Assembly::add_face(std::span<const int> vertex_ids, FaceKind kind) {

@@ -125,7 +125,7 @@ struct Assembly {
   /// stands on it, else the nearest before it; of blocks of no course the last. Null if no sheet has one.
   const Sheet* vault_of(int ring) const;
   /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward, or of imported blocks;
-  /// without a vault away from the z axis.
+  /// NaN without a vault.
   Vec3 outward(int ring, const Vec3& point) const;
   /// Appends a face to the last part. A new part starts with `face_start = num_faces()`.
   void add_face(std::span<const int> vertex_ids, FaceKind kind);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -44,16 +45,37 @@ bool bears(const Assembly& assembly, const Block& support, const std::string& me
   return sheet == sheet_of_member(assembly, static_cast<int>(named - assembly.members.begin()));
 }
 
-/// rad, of the centroid about the z axis.
+/// The sheet about whose axis a block lies and from which it moves outwards: of a support that of the nearest
+/// free block.
+Sheet sheet_about(const Assembly& assembly, int block) {
+  const Vec3& centroid = assembly.blocks[block].centroid;
+  int ring = assembly.blocks[block].ring;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Block& b : assembly.blocks) {
+    if (!assembly.blocks[block].fixed) break;
+    if (b.fixed || (b.centroid - centroid).squaredNorm() >= nearest) continue;
+    nearest = (b.centroid - centroid).squaredNorm();
+    ring = b.ring;
+  }
+  const Sheet* vault = assembly.vault_of(ring);
+  return vault ? *vault : assembly.axis_of(ring);
+}
+
+/// `distance` (m): of the centroid of the block from the axis.
+void check_beside_axis(double distance, const Assembly& assembly, int block, const std::string& key) {
+  if (distance < 1e-6 * std::cbrt(assembly.blocks[block].volume))
+    throw InputError(fmt::format(
+        "{}: block {} lies on the axis of the masonry, where a sector, a profile or a motion outwards has no "
+        "direction; choose it by `blocks` and move it by `displacement`, or divide a fixed ring by "
+        "geometry.base_blocks",
+        key, block_label(assembly, block)));
+}
+
+/// rad, of the centroid about the axis of the masonry, from the x axis of that.
 double azimuth_of(const Assembly& assembly, int block, const std::string& key) {
-  const Block& b = assembly.blocks[block];
-  const double size = std::cbrt(b.volume);
-  if (std::hypot(b.centroid.x(), b.centroid.y()) < 1e-6 * size)
-    throw InputError(
-        fmt::format("{}: block {} lies on the z axis, where a sector, a profile or a motion outwards has no "
-                    "direction; a fixed ring is divided by geometry.base_blocks",
-                    key, block_label(assembly, block)));
-  return std::atan2(b.centroid.y(), b.centroid.x());
+  const Vec3 own = sheet_about(assembly, block).own(assembly.blocks[block].centroid);
+  check_beside_axis(own.head<2>().norm(), assembly, block, key);
+  return std::atan2(own.y(), own.x());
 }
 
 bool is_in(const Sector& sector, double azimuth) {
@@ -93,15 +115,17 @@ std::vector<RegionBlock> blocks_of_region(const BlockRegion& region, const Assem
 
 Vec3 outward_of_support(const Assembly& assembly, int block, const std::string& key) {
   const Vec3& centroid = assembly.blocks[block].centroid;
-  azimuth_of(assembly, block, key);
-  int ring = 0;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Block& b : assembly.blocks) {
-    if (b.fixed || (b.centroid - centroid).squaredNorm() >= nearest) continue;
-    nearest = (b.centroid - centroid).squaredNorm();
-    ring = b.ring;
-  }
-  return assembly.outward(ring, centroid);
+  const Sheet sheet = sheet_about(assembly, block);
+  const std::optional<Vec3> outward = sheet.outward(centroid);
+  if (!outward)
+    throw InputError(fmt::format(
+        "{}: nothing says what is outwards of block {}, which bears no vault; give a `displacement` or a "
+        "`rotation_deg`, or to imported blocks geometry.import.axis",
+        key, block_label(assembly, block)));
+  const Vec3 own = sheet.own(centroid);
+  const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
+  check_beside_axis(arch ? std::abs(own.x()) : own.head<2>().norm(), assembly, block, key);
+  return *outward;
 }
 
 }  // namespace cupola

@@ -78,13 +78,13 @@ struct FaceLoad {
   std::optional<Fill> fill = {};
 };
 
-/// A factor that varies with the azimuth phi about the z axis: cos(waves (phi - phase)).
+/// A factor that varies with the azimuth phi about the axis of the masonry: cos(waves (phi - phase)).
 struct AzimuthProfile {
   int waves = 1;           ///< >= 1, around the axis
-  double phase_deg = 0.0;  ///< deg, azimuth of a crest, from the x axis
+  double phase_deg = 0.0;  ///< deg, azimuth of a crest, from its x axis
 };
 
-/// Azimuths about the z axis from `from_deg` counter-clockwise to `to_deg`, both included.
+/// Azimuths about the axis of the masonry from `from_deg` counter-clockwise to `to_deg`, both included.
 struct Sector {
   double from_deg = 0.0, to_deg = 360.0;  ///< deg; to > from, by at most 360
 };

@@ -15,7 +15,7 @@ struct MemberSum {
   double weight = 0.0;          ///< N, of these blocks
   double vertical_force = 0.0;  ///< N, on the blocks above, positive upwards
   double share = 0.0;           ///< of the sum over all members; 0 if that is negligible
-  double outward_force = 0.0;   ///< N, sum of the horizontal outward forces on the blocks below
+  double outward_force = 0.0;  ///< N, sum of the horizontal outward forces on the blocks below; NaN: no vault
 };
 
 /// Ring by ring from the base upwards, one row per member with blocks in the ring or forces through the cut;

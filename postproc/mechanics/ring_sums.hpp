@@ -29,7 +29,7 @@ struct RingSum {
   double cv_resultant = 0.0;         ///< coefficient of variation of these forces
   double cv_pressure = 0.0;          ///< the same of normal force over joint area, for blocks of unequal size
   /// N, sum of the horizontal outward forces across the cut on blocks below it in the stack, and of the ring on
-  /// supports.
+  /// supports; NaN without a vault, as Assembly::outward.
   double radial_thrust = 0.0;
   double largest_couple_length = 0.0;  ///< m, of a block's wrench from below
   double largest_friction_use = 0.0;   ///< of the ring's bed joints

@@ -17,7 +17,7 @@ struct WytheSum {
   double area = 0.0;            ///< m2, of these joints
   double vertical_force = 0.0;  ///< N, of all joints across the cut on the blocks above, positive upwards
   double share = 0.0;           ///< of the sum over the ring; 0 if that is negligible
-  double outward_force = 0.0;   ///< N, sum of the horizontal outward forces on the blocks below
+  double outward_force = 0.0;  ///< N, sum of the horizontal outward forces on the blocks below; NaN: no vault
   /// Mean place of the normal forces of its bed joints through the thickness of the wythes: 0 on their inner,
   /// 1 on their outer side. NaN without such forces.
   double position = 0.0;

@@ -25,7 +25,8 @@ const Columns<MemberRow>& member_columns() {
       {"vertical_force_N", "N", "vertical force from below the cut on its blocks above, positive upwards",
        [](const M& m) { return m.sum.vertical_force; }},
       {"share", "", "this force over the sum of all members", [](const M& m) { return m.sum.share; }},
-      {"outward_force_N", "N", "sum of its horizontal outward forces on the blocks below the cut",
+      {"outward_force_N", "N",
+       "sum of its horizontal outward forces on the blocks below the cut; empty: no vault",
        [](const M& m) { return m.sum.outward_force; }},
   };
   return columns;
@@ -45,7 +46,8 @@ const Columns<WytheRow>& wythe_columns() {
        "vertical force through its joints on the blocks above the cut, positive upwards",
        [](const W& w) { return w.sum.vertical_force; }},
       {"share", "", "this force over the sum of the ring", [](const W& w) { return w.sum.share; }},
-      {"outward_force_N", "N", "sum of the horizontal outward forces through its joints on the blocks below",
+      {"outward_force_N", "N",
+       "sum of the horizontal outward forces through its joints on the blocks below; empty: no vault",
        [](const W& w) { return w.sum.outward_force; }},
       {"position", "",
        "mean place of the normal forces on its beds through its thickness: 0 inner, 1 outer side; empty: "
@@ -98,8 +100,8 @@ const Columns<Reaction>& reaction_columns() {
   static const Columns<S> columns{
       {"support", "", "index of the fixed block", &S::block},
       {"force_{}_N", "N", "of the structure on the support", &S::force},
-      {"outward_force_N", "N", "sum of its joints along the outward direction at the centroid of each",
-       &S::outward},
+      {"outward_force_N", "N",
+       "sum of its joints along the outward direction at the centroid of each; empty: no vault", &S::outward},
       {"length_m", "m",
        "of its joints along the course, area over thickness; empty: no thickness, as of the cut back of a "
        "rib",

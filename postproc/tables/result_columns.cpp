@@ -83,7 +83,7 @@ const Columns<RingRow>& ring_columns() {
        [](const R& r) { return r.cut.cv_pressure; }},
       {"radial_thrust_N", "N",
        "sum of the forces on the blocks below the ring, and of the ring on supports, along the outward "
-       "direction at the centroid of each joint",
+       "direction at the centroid of each joint; empty: no vault",
        [](const R& r) { return r.cut.radial_thrust; }},
       {"largest_couple_length_m", "m", "largest couple length of a block's wrench",
        [](const R& r) { return r.cut.largest_couple_length; }},

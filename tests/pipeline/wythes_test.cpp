@@ -120,17 +120,17 @@ TEST(Wythes, HeadersShareTheLoadOfALeaf) {
   const Evaluation e = solve_and_evaluate(scene, folder);
   ASSERT_EQ(e.summary.status, Status::stable) << e.summary.message;
   for (const RingSum& ring : e.rings) {
-    double vertical = 0.0, outward = 0.0, share = 0.0;
+    double vertical = 0.0, share = 0.0;
     for (const WytheSum& sum : e.wythes) {
       if (sum.ring != ring.ring) continue;
       vertical += sum.vertical_force;
-      outward += sum.outward_force;
+      EXPECT_TRUE(std::isnan(sum.outward_force)) << "a wall";
       share += sum.share;
       EXPECT_EQ(sum.wythes.count(), 1) << "headers stand on leaves and carry leaves";
       EXPECT_NEAR(sum.share, 0.5, 1e-3) << "the headers are loaded in their middle";
     }
     EXPECT_NEAR(vertical, ring.joint_force.z(), 1e-12 * vertical) << "rounding of the sums";
-    EXPECT_NEAR(outward, ring.radial_thrust, 1e-12 * vertical) << "rounding of the sums";
+    EXPECT_TRUE(std::isnan(ring.radial_thrust)) << "a wall";
     EXPECT_NEAR(share, 1.0, 1e-12);
   }
   // One map per leaf; a header is in both.

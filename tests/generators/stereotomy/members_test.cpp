@@ -147,6 +147,8 @@ TEST(Members, WallsPushAsTheBarrelsOnThem) {
     EXPECT_LT((assembly.outward(ring, point) - outward.at(ring)).norm(), 1e-15)
         << ring;  // rounding of pi / 2
   EXPECT_EQ(assembly.vault_of(-1), &assembly.sheets[5]);
+  assembly.sheets.resize(2);  // walls without a barrel
+  EXPECT_TRUE(assembly.outward(0, point).array().isNaN().all());
 }
 
 // A pier and what stands on it, four times round a point; a row of three.

@@ -2,6 +2,8 @@
 
 #include "postproc/mechanics/member_sums.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace cupola::member_sums_test {
@@ -34,6 +36,7 @@ TEST(MemberSums, AddTheForcesFromBelowEachCut) {
   joints.wrenches = {joint(0, 1, {0, 0, 45}, {1, 0, 0}), joint(0, 2, {0, 0, 15}, {2, 0, 0}),
                      joint(1, 3, {-4, 0, 20}, {1, 0, 1}), joint(2, 3, {-1, 0, 10}, {2, 0, 1}),
                      joint(1, 2, {7, 0, 0}, {1.5, 0, 0.5})};  // in the course: crosses no cut
+  assembly.sheets = {{.name = "shell", .num_rings = 2, .thrust_lines = Sheet::ThrustLines::by_azimuth}};
   const std::vector<MemberSum> sums = member_sums(assembly, joints, {0, 0, -10});
   ASSERT_EQ(sums.size(), 3u);
   EXPECT_EQ(sums[0].ring, 0);
@@ -48,6 +51,8 @@ TEST(MemberSums, AddTheForcesFromBelowEachCut) {
   EXPECT_DOUBLE_EQ(sums[2].vertical_force, 30.0);
   EXPECT_DOUBLE_EQ(sums[2].share, 1.0);
   EXPECT_DOUBLE_EQ(sums[2].outward_force, 5.0);  // the header pushes the leaves outwards
+  assembly.sheets.front().thrust_lines = Sheet::ThrustLines::none;
+  EXPECT_TRUE(std::isnan(member_sums(assembly, joints, {0, 0, -10})[2].outward_force)) << "a wall";
 }
 
 // A stage of a construction leaves out the blocks that are not laid.

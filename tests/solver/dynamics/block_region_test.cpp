@@ -15,17 +15,37 @@
 namespace cupola {
 namespace {
 
-/// Eight fixed cubes of 0.2 m on a circle of 2 m, at 0, 45, ..., 315 degrees, each under a free one.
-Assembly circle() {
+/// A sheet of one course.
+Sheet sheet_at(const Vec3& origin, double turn, Sheet::ThrustLines lines) {
+  return {.name = "shell", .num_rings = 1, .thrust_lines = lines, .origin = origin, .turn = turn};
+}
+
+/// Eight fixed cubes of 0.2 m on a circle of 2 m about an axis, at 0, 45, ..., 315 degrees from the x axis of
+/// their sheet, each under a free one.
+Assembly circle(const Vec3& origin = Vec3::Zero(), double turn = 0.0) {
   std::vector<testing::BoxSpec> boxes;
   for (int k = 0; k < 8; ++k)
     for (const bool fixed : {true, false}) {
-      const double phi = k * M_PI / 4;
-      boxes.push_back({.center = {2 * std::cos(phi), 2 * std::sin(phi), fixed ? -0.1 : 0.1},
+      const double phi = k * M_PI / 4 + turn;
+      boxes.push_back({.center = origin + Vec3(2 * std::cos(phi), 2 * std::sin(phi), fixed ? -0.1 : 0.1),
                        .size = Vec3::Constant(0.2),
                        .fixed = fixed});
     }
-  return testing::make_boxes(boxes);
+  Assembly assembly = testing::make_boxes(boxes);
+  assembly.num_rings = 1;
+  assembly.sheets = {sheet_at(origin, turn, Sheet::ThrustLines::by_azimuth)};
+  return assembly;
+}
+
+std::string message_of_move(const SupportMove& move, const Assembly& assembly) {
+  Case scene;
+  scene.supports.moves = {move};
+  try {
+    make_support_motions(scene, assembly);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 std::vector<Pose> moved(const SupportMove& move, const Assembly& assembly) {
@@ -76,6 +96,50 @@ TEST(SupportRegion, SectorsIncludeTheirEndsAndCrossZero) {
   EXPECT_EQ(blocks_in(315, 360), (std::vector{0, 7}));
   EXPECT_EQ(blocks_in(100, 170), (std::vector{3}));
   EXPECT_EQ(blocks_in(0, 360).size(), 8u);
+}
+
+// Sectors, profiles and outwards are those of the masonry wherever it stands, from its own x axis.
+TEST(SupportRegion, CountsAboutTheAxisOfTheMasonry) {
+  constexpr double kTurn = 0.5;  // rad
+  const Assembly here = circle(), there = circle({30.0, 20.0, 0.0}, kTurn);
+  SupportMove move;
+  move.outward = 0.01;
+  move.region.sector = Sector{-10.0, 170.0};
+  move.region.profile = AzimuthProfile{1, 20.0};
+  const std::vector<Pose> expected = moved(move, here), found = moved(move, there);
+  const Eigen::AngleAxisd turn(kTurn, Vec3::UnitZ());
+  for (size_t b = 0; b < found.size(); ++b) {
+    const Vec3 shift = found[b].p_WB - there.blocks[b].centroid;
+    // 100 times the rounding of coordinates of 30 m.
+    EXPECT_LT((shift - turn * (expected[b].p_WB - here.blocks[b].centroid)).norm(), 1e-13) << b;
+  }
+}
+
+// A ring round the axis and a block under the crown of an arch have no direction outwards, walls have none at
+// all, and rounding must not choose one.
+TEST(SupportRegion, RefusesToMoveOutwardsFromNothing) {
+  using enum Sheet::ThrustLines;
+  const Vec3 aside(3.3, 0.7, 0.0);
+  Assembly block = testing::make_boxes({{.center = aside, .size = {4, 4, 1}, .fixed = true},
+                                        {.center = aside + Vec3(1.0, 0.0, 1.0), .size = {1, 1, 1}}});
+  block.num_rings = 1;
+  SupportMove outward, tilt, sinking;
+  outward.outward = tilt.tilt_deg = 0.001;
+  sinking.displacement = Vec3(0.0, 0.0, -0.001);
+  for (const auto lines : {by_azimuth, one, radial}) {
+    block.sheets = {sheet_at(aside + Vec3(1e-15, 0.0, 0.0), 0.3, lines)};
+    for (const SupportMove& move : {outward, tilt})
+      EXPECT_NE(message_of_move(move, block).find("block 0 lies on the axis of the masonry"),
+                std::string::npos);
+    EXPECT_EQ(message_of_move(sinking, block), "");
+  }
+  block.sheets = {sheet_at(Vec3::Zero(), 0.0, none)};
+  EXPECT_NE(message_of_move(outward, block).find("nothing says what is outwards of block 0"),
+            std::string::npos);
+  block.sheets = {sheet_at(aside - Vec3(5.0, 0.0, 0.0), 0.0, one)};
+  EXPECT_EQ(message_of_move(outward, block), "");
+  block.sheets = {sheet_at(aside - Vec3(0.0, 5.0, 0.0), 0.0, one)};  // along the crown
+  EXPECT_NE(message_of_move(outward, block), "");
 }
 
 // The fixed blocks under the wythes of a member bear all of them.
