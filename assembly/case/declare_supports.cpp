@@ -68,8 +68,9 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
 void declare_sector(Section& s, Sector& sector) {
   s.required_number("from_deg", sector.from_deg, {.unit = "deg", .min = -360, .max = 360},
                     "azimuth about the axis of the vault, from its x axis, at which the sector begins");
-  s.required_number("to_deg", sector.to_deg, {.unit = "deg", .min = -360, .max = 720},
-                    "azimuth at which it ends, counter-clockwise");
+  s.required_number(
+      "to_deg", sector.to_deg, {.unit = "deg", .min = -360, .max = 720},
+      "azimuth at which it ends, counter-clockwise; a block there belongs to a sector that begins there");
   s.rule(sector.to_deg > sector.from_deg && sector.to_deg - sector.from_deg <= 360.0, "to_deg",
          "must be above from_deg, by at most 360");
 }

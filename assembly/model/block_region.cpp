@@ -81,7 +81,7 @@ double azimuth_of(const Assembly& assembly, int block, const std::string& key) {
 bool is_in(const Sector& sector, double azimuth) {
   constexpr double kRounding = 1e-9;  // deg
   const double beyond = std::fmod(azimuth / kDegree - sector.from_deg + 720.0 + kRounding, 360.0);
-  return beyond <= sector.to_deg - sector.from_deg + 2.0 * kRounding;
+  return beyond < sector.to_deg - sector.from_deg;
 }
 
 }  // namespace

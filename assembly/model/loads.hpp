@@ -84,7 +84,7 @@ struct AzimuthProfile {
   double phase_deg = 0.0;  ///< deg, azimuth of a crest, from its x axis
 };
 
-/// Azimuths about the axis of the masonry from `from_deg` counter-clockwise to `to_deg`, both included.
+/// Azimuths about the axis of the masonry from `from_deg` counter-clockwise to below `to_deg`.
 struct Sector {
   double from_deg = 0.0, to_deg = 360.0;  ///< deg; to > from, by at most 360
 };

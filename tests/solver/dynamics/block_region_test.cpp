@@ -84,7 +84,8 @@ TEST(SupportRegion, TiltTurnsTheTopOutwards) {
   }
 }
 
-TEST(SupportRegion, SectorsIncludeTheirEndsAndCrossZero) {
+// Two sectors with a common end have no block in common.
+TEST(SupportRegion, SectorsBeginAtABlockAndEndBeforeOne) {
   const Assembly assembly = circle();
   const auto blocks_in = [&](double from, double to) {
     std::vector<int> found;
@@ -92,10 +93,12 @@ TEST(SupportRegion, SectorsIncludeTheirEndsAndCrossZero) {
       found.push_back(b.block / 2);
     return found;
   };
-  EXPECT_EQ(blocks_in(-45, 45), (std::vector{0, 1, 7}));
-  EXPECT_EQ(blocks_in(315, 360), (std::vector{0, 7}));
+  EXPECT_EQ(blocks_in(0, 180), (std::vector{0, 1, 2, 3}));
+  EXPECT_EQ(blocks_in(180, 360), (std::vector{4, 5, 6, 7}));
+  EXPECT_EQ(blocks_in(-45, 45), (std::vector{0, 7}));
   EXPECT_EQ(blocks_in(100, 170), (std::vector{3}));
   EXPECT_EQ(blocks_in(0, 360).size(), 8u);
+  EXPECT_EQ(blocks_in(10, 370).size(), 8u);
 }
 
 // Sectors, profiles and outwards are those of the masonry wherever it stands, from its own x axis.
