@@ -78,6 +78,11 @@ bool same_planes(const JointPatch& p, const JointPatch& q) {
   return p.plane_a.normal.dot(q.plane_a.normal) > kCosine && p.plane_b.normal.dot(q.plane_b.normal) > kCosine;
 }
 
+/// Distance of the parts at the deepest corner of a patch, along the normals of its faces, m; negative inside.
+double distance_of(const JointPatch& patch) {
+  return patch.min_gap * patch.normal.dot(patch.plane_a.normal);
+}
+
 /// True if no face normal separates the parts better than the patch does. Two thin parts also have opposed
 /// faces behind those that touch; their planes have passed each other even when the parts are apart.
 ///
@@ -88,8 +93,7 @@ bool has_least_depth(const CollisionModel& model, const JointPatch& patch, const
                      const NarrowPhaseOptions& options) {
   if (patch.min_gap >= -options.tolerance) return true;  // the parts touch without overlap
   const TwoParts parts = place_parts(model, patch.part_a, patch.part_b, pose_ab);
-  const double depth = patch.min_gap * patch.normal.dot(patch.plane_a.normal);
-  return depth >= best_face_axis(parts, options.margin).gap - options.tolerance;
+  return distance_of(patch) >= best_face_axis(parts, options.margin).gap - options.tolerance;
 }
 
 }  // namespace
@@ -166,9 +170,13 @@ std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part
     }
   }
   if (patches.empty()) return patches;
-  const auto by_gap = [](const JointPatch& p, const JointPatch& q) { return p.min_gap < q.min_gap; };
-  const JointPatch best = *std::max_element(patches.begin(), patches.end(), by_gap);
-  if (!has_least_depth(model, best, pose_ab, options)) return {};
+  if (!has_least_depth(model, *std::ranges::max_element(patches, {}, distance_of), pose_ab, options))
+    return {};
+  // Faces that meet in an edge of the joint are at the same distance, up to the precision of the drawing.
+  const auto value = [&](const JointPatch& p) {
+    return distance_of(p) - options.min_width * (p.plane_a.normal + p.plane_b.normal).norm();
+  };
+  const JointPatch best = *std::ranges::max_element(patches, {}, value);
   std::erase_if(patches, [&](const JointPatch& p) { return !same_planes(p, best); });
   return patches;
 }

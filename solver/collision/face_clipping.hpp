@@ -11,8 +11,9 @@ namespace cupola {
 ///
 /// - Two faces touch when they are opposed within max_angle, their gap is within the margin, and the width of
 ///   their overlap exceeds both min_width and the overlap depth. Faces of kind `internal` never touch.
-/// - Convex bodies touch along one plane. Among several directions the one with the largest gap is kept, as
-///   in the separating axis test, with all face pairs coplanar to it, sorted by face.
+/// - Convex bodies touch along one plane. Among several directions the one with the largest distance is kept,
+///   as in the separating axis test, with all face pairs coplanar to it, sorted by face. Where distances
+///   differ by less than min_width times the difference in tilt, it is the one with the least tilt.
 /// - Interpenetrating faces touch only if no face normal of either part shows a smaller overlap or a gap,
 ///   because thin parts that are apart have opposed faces too.
 std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part_a, int part_b,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -182,6 +183,59 @@ TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
     }
   }
   EXPECT_GT(near, 10);
+}
+
+/// A block between y = 0 and 1 with the outline (x, z), counter-clockwise as seen from -y.
+void add_prism(const std::vector<Vec2>& outline, bool fixed, Assembly* assembly) {
+  add_block({.fixed = fixed}, assembly);
+  Part part;
+  part.block = static_cast<int>(assembly->blocks.size()) - 1;
+  part.face_start = assembly->num_faces();
+  assembly->parts.push_back(part);
+  const int first = static_cast<int>(assembly->vertices.size()), n = static_cast<int>(outline.size());
+  std::vector<int> front, back;
+  for (int i = 0; i < n; ++i) {
+    for (const double y : {0.0, 1.0}) assembly->vertices.emplace_back(outline[i].x(), y, outline[i].y());
+    front.push_back(first + 2 * i);
+    back.insert(back.begin(), first + 2 * i + 1);
+    const int next = (i + 1) % n;
+    assembly->add_face({{first + 2 * next, first + 2 * i, first + 2 * i + 1, first + 2 * next + 1}},
+                       FaceKind::bed);
+  }
+  assembly->add_face(front, FaceKind::head);
+  assembly->add_face(back, FaceKind::head);
+}
+
+// The bottom of a stone on a slope is parallel to it from x = 1 to 2, and level from 0.4 to 1, where it hangs
+// over the slope. Both faces touch the slope in the edge between them, and the bed is the joint: wherever the
+// model lies, in either order of the blocks, mirrored, and with coordinates rounded to 1e-6 m.
+TEST(EdgeContact, OfFacesThatMeetInAnEdgeTheParallelOneIsTheJoint) {
+  for (const double slope : {6.0, 8.0, 10.0, 12.0, 14.0, 16.0, 18.0, 19.0})
+    for (const double shift : {0.0, 7.3})
+      for (const bool stone_first : {false, true})
+        for (const double mirror : {1.0, -1.0})
+          for (const double rounding : {0.0, 1e-6}) {
+            const double t = std::tan(slope * kPi / 180.0), x = shift;
+            std::vector<Vec2> floor{{x, 0}, {x + 3, 0}, {x + 3, 0.2 + 3 * t}, {x, 0.2}};
+            std::vector<Vec2> stone{
+                {x + 0.4, 0.2 + t}, {x + 1, 0.2 + t}, {x + 2, 0.2 + 2 * t}, {x + 2, 2.2}, {x + 0.4, 2.2}};
+            for (std::vector<Vec2>* outline : {&floor, &stone}) {
+              for (Vec2& corner : *outline) {
+                corner.x() *= mirror;
+                if (rounding > 0.0) corner = (corner / rounding).array().round() * rounding;
+              }
+              if (mirror < 0.0) std::ranges::reverse(*outline);
+            }
+            Assembly scene;
+            if (stone_first) add_prism(stone, false, &scene);
+            add_prism(floor, true, &scene);
+            if (!stone_first) add_prism(stone, false, &scene);
+            compute_mass_properties(&scene);
+            const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
+            ASSERT_EQ(set.patches.size(), 1u) << slope;
+            EXPECT_NEAR(set.patches[0].area, std::hypot(1.0, t), 1e-12 + 4.0 * rounding)
+                << slope << " " << shift << " " << stone_first << " " << mirror << " " << rounding;
+          }
 }
 
 }  // namespace
