@@ -47,7 +47,10 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
       warnings.push_back(
           fmt::format("{} that the last stage has not laid were exported, too", counted(missing, "block")));
   ExportModel model{e.assembly, {}, {}, common_scale(e)};
-  if (moves) model.poses = poses_of(e.assembly, e.last.frame.blocks);
+  if (moves) {
+    model.poses = poses_of(e.assembly, e.last.frame.blocks);
+    model.yielded = yielded_of(e.assembly, e.last.frame.ties, e.scene.ties.pairs.size());
+  }
   if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)
       model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));

@@ -26,7 +26,8 @@ struct ExportModel {
   /// Where the blocks stand, applied to their vertices; empty: as built.
   std::vector<Eigen::Isometry3d> poses;
   std::vector<ExportedJoint> joints;
-  double force_scale = 0.0;  ///< m per N, of drawn forces
+  double force_scale = 0.0;          ///< m per N, of drawn forces
+  std::vector<double> yielded = {};  ///< m, plastic elongation of each tie of the assembly; empty: none
 
   Vec3 placed(int block, const Vec3& p) const { return poses.empty() ? p : poses[block] * p; }
 };

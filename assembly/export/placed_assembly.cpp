@@ -28,6 +28,15 @@ std::vector<Eigen::Isometry3d> contact_poses_of(const Assembly& assembly, const 
   return poses_at(assembly, blocks.contact_position, blocks.contact_quaternion_wxyz);
 }
 
+std::vector<double> yielded_of(const Assembly& assembly, const TieTable& ties, size_t first) {
+  std::vector<double> bars;  // a rod is a bar and a strut
+  for (size_t k = 0; k < ties.yielded.size(); ++k)
+    if (!ties.strut[k]) bars.push_back(ties.yielded[k]);
+  if (bars.size() < first + assembly.ties.size()) return {};
+  const auto begin = bars.begin() + static_cast<std::ptrdiff_t>(first);
+  return {begin, begin + std::ssize(assembly.ties)};
+}
+
 Assembly placed_assembly(const ExportModel& model) {
   const Assembly& built = model.assembly;
   Assembly placed = built;
@@ -51,9 +60,11 @@ Assembly placed_assembly(const ExportModel& model) {
       }
       vertex = known->second;
     }
-  for (BuiltTie& tie : placed.ties) {
+  for (size_t i = 0; i < placed.ties.size(); ++i) {
+    BuiltTie& tie = placed.ties[i];
     tie.point_a = model.placed(tie.block_a, tie.point_a);
     tie.point_b = model.placed(tie.block_b, tie.point_b);
+    if (!model.yielded.empty()) tie.length += model.yielded[i];
   }
   compute_mass_properties(&placed);
   return placed;

@@ -13,8 +13,12 @@ std::vector<Eigen::Isometry3d> poses_of(const Assembly& assembly, const BlockTab
 /// the displacements.
 std::vector<Eigen::Isometry3d> contact_poses_of(const Assembly& assembly, const BlockTable& blocks);
 
+/// ExportModel::yielded in a frame, whose ties from number `first` on are those of the assembly.
+std::vector<double> yielded_of(const Assembly& assembly, const TieTable& ties, size_t first);
+
 /// The assembly with its blocks and ties where they stand: the masonry as built of an analysis in the moved
-/// geometry. Blocks no longer share vertices; courses, names and axes are those of the original.
+/// geometry. Ties have grown by what they have yielded. Blocks no longer share vertices; courses, names and
+/// axes are those of the original.
 Assembly placed_assembly(const ExportModel& model);
 
 }  // namespace cupola

@@ -44,5 +44,26 @@ TEST(PlacedAssembly, MovesBlocksAndTies) {
   EXPECT_EQ(placed.ties[0].length, tie.length);
 }
 
+// In a frame the ties of the case come first, then those of the assembly, a rod as a bar and a strut, then
+// restraints. Each tie of the assembly has grown by what its own bar has yielded.
+TEST(PlacedAssembly, TiesKeepTheirPlasticElongation) {
+  Assembly built = test::two_block_assembly();
+  BuiltTie tie;
+  tie.block_a = 0, tie.block_b = 1;
+  tie.point_b = {0.2, 0.3, 1.1};
+  tie.stiffness = 1e6, tie.length = 0.8;
+  built.ties = {tie, tie, tie};
+  built.ties[1].pushes = true;
+  TieTable ties;
+  ties.yielded = {0.5, 0.01, 0.02, 0.0, 0.04, 0.0, 0.0};
+  ties.strut = {0, 0, 0, 1, 0, 0, 1};
+  ExportModel model{built, std::vector(built.blocks.size(), Eigen::Isometry3d::Identity()), {}};
+  model.yielded = yielded_of(built, ties, 1);
+  const Assembly placed = placed_assembly(model);
+  EXPECT_EQ(placed.ties[0].length, 0.8 + 0.01);
+  EXPECT_EQ(placed.ties[1].length, 0.8 + 0.02);
+  EXPECT_EQ(placed.ties[2].length, 0.8 + 0.04);
+}
+
 }  // namespace
 }  // namespace cupola
