@@ -24,6 +24,7 @@ void declare_pair(Section& s, PairTie& tie) {
   s.optional_number("yield_force", tie.yield_force, {.unit = "N", .above = 0}, "none",
                     "tension at which the tie elongates plastically");
   s.rule(tie.slack == 0.0 || tie.prestress == 0.0, "slack", "a tie has either slack or prestress");
+  s.rule(!tie.yield_force || tie.prestress <= *tie.yield_force, "prestress", "must be <= yield_force");
 }
 
 /// The ground goes on with the velocity at the end of an accelerogram.

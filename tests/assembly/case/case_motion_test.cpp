@@ -108,6 +108,8 @@ TEST(ReadMotion, ErrorsNameTheBrokenRule) {
             "give one of weight_fraction, weight (N) and mass (kg)"},
            {"ties: {pairs: [{block_a: 1, block_b: 2, stiffness: 0}]}",
             "ties.pairs[0].stiffness = 0: must be > 0"},
+           {"ties: {pairs: [{block_a: 1, block_b: 2, prestress: 5000, yield_force: 1000}]}",
+            "ties.pairs[0].prestress = 5000: must be <= yield_force"},
            {"analysis: {time_error: 1e-4, adaptive: {smallest: 1, largest: 0.1}}", "must be >= smallest"},
            {"analysis: {adaptive: {smallest: 1e-4}}", "requires time_error"},
            {"analysis: {integrator: generalized_alpha}", "applies to dynamic analyses only"},
