@@ -1,8 +1,8 @@
 #include "solver/dynamics/plane_scene.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -11,7 +11,8 @@
 namespace cupola {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of the size of the scene
+constexpr double kRounding = 1e-9;                                       // of the size of the scene
+constexpr double kUlps = 16.0 * std::numeric_limits<double>::epsilon();  // of the coordinates
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InputError("analysis.plane: the scene is not plane: " + what + "; set analysis.plane: false");
@@ -19,23 +20,20 @@ constexpr double kRounding = 1e-9;  // of the size of the scene
 
 /// True if each vertex of the part has a mirror image in the plane y = middle (m).
 bool symmetric(const Assembly& assembly, const Part& part, double middle, double tolerance) {
-  std::vector<std::array<double, 3>> here, mirrored;
+  std::vector<Vec3> corners;
   for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
-    for (const int v : assembly.face(f)) {
-      const Vec3& x = assembly.vertices[v];
-      const auto rounded = [tolerance](double value) { return std::round(value / tolerance); };
-      here.push_back({rounded(x.x()), rounded(x.z()), rounded(x.y() - middle)});
-      mirrored.push_back({rounded(x.x()), rounded(x.z()), rounded(middle - x.y())});
-    }
-  std::sort(here.begin(), here.end());
-  std::sort(mirrored.begin(), mirrored.end());
-  return here == mirrored;
+    for (const int v : assembly.face(f)) corners.push_back(assembly.vertices[v]);
+  return std::ranges::all_of(corners, [&](const Vec3& x) {
+    const Vec3 image(x.x(), 2.0 * middle - x.y(), x.z());
+    return std::ranges::any_of(
+        corners, [&](const Vec3& other) { return (other - image).cwiseAbs().maxCoeff() <= tolerance; });
+  });
 }
 
 void require_plane_blocks(const Assembly& assembly, double middle, double tolerance) {
   for (const Part& part : assembly.parts)
     if (!symmetric(assembly, part, middle, tolerance))
-      refuse(fmt::format("block {} is not symmetric about y = {:g} m", part.block, middle));
+      refuse(fmt::format("block {} is not symmetric about y = {:.10g} m", part.block, middle));
 }
 
 void require_plane_actions(const PlaneActions& actions, double tolerance) {
@@ -58,13 +56,14 @@ void require_plane_actions(const PlaneActions& actions, double tolerance) {
 void require_plane_scene(const Case& scene, const Assembly& assembly, const PlaneActions& actions) {
   if (scene.contact.method != ContactDetection::Method::face_clipping)
     throw InputError("analysis.plane: requires contact.method: face_clipping");
-  double size = 0.0;
-  for (const Vec3& x : assembly.vertices) size = std::max(size, (x - assembly.vertices[0]).norm());
+  double tolerance = 0.0;
+  for (const Vec3& x : assembly.vertices)
+    tolerance = std::max({tolerance, kRounding * (x - assembly.vertices[0]).norm(), kUlps * x.norm()});
   const auto free = std::find_if(assembly.blocks.begin(), assembly.blocks.end(),
                                  [](const Block& block) { return !block.fixed; });
   const double middle = free != assembly.blocks.end() ? free->centroid.y() : 0.0;
-  require_plane_blocks(assembly, middle, kRounding * size);
-  require_plane_actions(actions, kRounding * size);
+  require_plane_blocks(assembly, middle, tolerance);
+  require_plane_actions(actions, tolerance);
 }
 
 }  // namespace cupola

@@ -42,5 +42,24 @@ TEST(PlanePath, RoundedLoadsDoNotTurnBlocksOutOfTheirPlane) {
   EXPECT_NEAR(path.rows.back()[0], 2.0 * kT / kH * (1.0 - moved), 0.03 * 2.0 * kT / kH);
 }
 
+// Coordinates of 5e6 m are multiples of 9e-10 m, and the centroid lies on one of them, although the width of
+// these piers is an odd number of them. What is off by more than 16, 1.9e-8 m, is not plane.
+TEST(PlaneScene, MayLieAtMapCoordinates) {
+  constexpr double kX = 400000.77, kY = 5300000.91, kEnd = 5300001.0;
+  Case scene = testing::make_case(0.7, 0.0, 0.01);
+  scene.analysis.plane = true;
+  for (int i = 0; i < 20; ++i) {
+    const double width = 0.37 + 0.001 * i;
+    Assembly pier = testing::make_boxes({{.center = {kX, kY, 431.5}, .size = {0.8, width, 1}, .fixed = true},
+                                         {.center = {kX, kY, 432.3}, .size = {0.5, width, 0.6}}});
+    for (Vec3& corner : pier.vertices)
+      if (corner.y() > kY) corner.y() = std::nextafter(corner.y(), kEnd);
+    compute_mass_properties(&pier);
+    EXPECT_NO_THROW(make_model(scene, pier)) << width;
+    pier.vertices.back().y() += 1e-6;
+    EXPECT_THROW(make_model(scene, pier), InputError) << width;
+  }
+}
+
 }  // namespace
 }  // namespace cupola::path_test
