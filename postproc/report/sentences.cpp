@@ -34,8 +34,8 @@ void add_rings(const Evaluation& e, const PostSummary& s, std::vector<std::strin
           ? fmt::format("In every {} the joint forces balance the load above; the largest "
                         "relative difference is {:.1e}.",
                         ring, *s.largest_ring_difference)
-          : fmt::format("The joint forces below a {} differ from the load above by up to {:.1e} of "
-                        "it: ties or inertia carry the rest.",
+          : fmt::format("The forces of joints and ties below a {} differ from the load above by up to {:.1e} "
+                        "of it: inertia carries the rest.",
                         ring, *s.largest_ring_difference));
   out->push_back(*s.largest_cv_pressure == 0.0
                      ? fmt::format("The bed pressure is the same on all blocks of a {}: its coefficient of "

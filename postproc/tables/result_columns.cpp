@@ -69,7 +69,7 @@ const Columns<RingRow>& ring_columns() {
       {"height_m", "m", "mean height of the ring's bed joints, of its bed where it has none",
        [](const R& r) { return r.cut.height; }},
       {"blocks", "", "blocks that begin in the ring", [](const R& r) { return r.cut.blocks; }},
-      {"joint_force_{}_N", "N", "sum of the joint forces on the blocks above the cut",
+      {"joint_force_{}_N", "N", "sum of the forces of joints and ties on the blocks above the cut",
        [](const R& r) { return r.cut.joint_force; }},
       {"load_above_N", "N", "weight and applied loads above the cut, positive downwards",
        [](const R& r) { return r.cut.load_above.dot(-r.up); }},

@@ -107,8 +107,9 @@ TieGeometry tie_geometry(const Tie& tie, const std::vector<Pose>& poses, const V
   const Vec3 along = (b.p_WB - a.p_WB) + (r_b - r_a);
   const double length = turns ? along.norm() : tie.direction.dot(along);
   TieGeometry geometry;
-  geometry.point_a = a.p_WB + r_a;
   geometry.point_b = b.p_WB + r_b;
+  // What a restraint holds slides across its direction, and the line of its force goes with it.
+  geometry.point_a = turns ? Vec3(a.p_WB + r_a) : Vec3(geometry.point_b - tie.natural_length * tie.direction);
   const double sign = tie.strut ? 1.0 : -1.0;
   if (!turns)
     geometry.normal = sign * tie.direction;

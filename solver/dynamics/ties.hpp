@@ -32,7 +32,7 @@ struct Tie {
 
 /// Position of a tie: its ends, and the direction of its force on b.
 struct TieGeometry {
-  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< m, world
+  Vec3 point_a = Vec3::Zero(), point_b = Vec3::Zero();  ///< m, world; the force acts along their line
   /// Unit, used like a contact normal: u_n > 0 slackens the tie, and a positive force acts on b along it.
   Vec3 normal = Vec3::UnitZ();
   double gap = 0.0;  ///< m, positive when slack, without plastic elongation

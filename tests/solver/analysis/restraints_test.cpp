@@ -98,6 +98,26 @@ TEST(Restraints, CarryAForceOfBothSigns) {
   }
 }
 
+// A box on a soft bed slides by 30 mm across its restraint, whose force stays along its direction, through the
+// held point. Tables take the force along the written ends.
+TEST(Restraints, ForceFollowsTheHeldPointAndDoesNotTurn) {
+  const Assembly box = testing::box_on_floor({1.0, 1.0, 1.0});
+  Case scene = testing::make_case(0.7, 1e-4, 0.01);
+  scene.analysis.type = AnalysisType::static_;
+  scene.loads.forces = {push(1, {0, 0, 0.5}, {300.0, 300.0, 0})};
+  scene.supports.restraints = {{BlockRef{1}, std::nullopt, Vec3::UnitX()}};
+  AnalysisSinks sinks;
+  Frame frame;
+  sinks.frame = [&](const Frame& f) { frame = f; };
+  ASSERT_EQ(run_static(scene, box, sinks).status, Status::stable);
+  ASSERT_GT(frame.blocks.displacement[1].y(), 0.01);
+  for (int i = 0; i < frame.ties.size(); ++i) {
+    const Vec3 along = frame.ties.point_b[i] - frame.ties.point_a[i];
+    EXPECT_NEAR(along.x(), 1.0, 1e-12);  // rounding: the edge of the box
+    EXPECT_NEAR(along.tail<2>().norm(), 0.0, 1e-12);
+  }
+}
+
 // A box that is not pushed: the shear of its bed may be anything that friction admits, because the restraint
 // balances it. Tie and strut of the restraint do not press against each other.
 TEST(Restraints, WidenARange) {
