@@ -121,7 +121,7 @@ KeyNumber end_of_path(const Evaluation& e) {
     borne.push_back(
         fmt::format("horizontal loads of {}, {:.3g} of the weight", force_text(aside), aside / weight));
   if (const std::string loads = loads_text(e); !loads.empty()) borne.push_back(loads);
-  if (support_motion(e) > 0.0) borne.push_back(moved_text(e));
+  if (const std::string moved = moved_text(e); !moved.empty()) borne.push_back(moved);
   return {"End of the path", fmt::format("{:.4g} s of {:.4g}", e.last.frame.time, e.scene.analysis.path.end),
           fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
 }

@@ -23,9 +23,8 @@ VerdictWords words_of_run(const Summary& summary);
 /// the case lies.
 VerdictWords verdict_words(const Evaluation& evaluation);
 
-/// How far the supports have moved, m; 0 without an equilibrium or within rounding.
-double support_motion(const Evaluation& evaluation);
-/// "support block 0 has moved by 5 mm", "3 supports have moved by up to 5 mm". One must have moved.
+/// "support block 0 has moved by 5 mm", "3 supports have moved by up to 5 mm and turned by up to 0.1 degrees";
+/// "" within rounding.
 std::string moved_text(const Evaluation& evaluation);
 
 /// Why, in one to three sentences: the verdict of the run, moved supports, parts that move.

@@ -28,25 +28,34 @@ std::map<std::string, std::vector<PartVerdict>> parts_by_verdict(const Summary& 
   return found;
 }
 
-double support_motion(const Evaluation& e) {
-  double farthest = 0.0;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (e.assembly.blocks[b].fixed && at_rest(e))
-      farthest = std::max(farthest, e.last.frame.blocks.displacement[b].norm());
-  return farthest > e.last.joints.floor.length ? farthest : 0.0;
-}
-
 std::string moved_text(const Evaluation& e) {
+  const BlockTable& blocks = e.last.frame.blocks;
+  const double least = e.last.joints.floor.length;
   std::vector<size_t> moved;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > e.last.joints.floor.length)
-      moved.push_back(b);
-  const std::string distance = length_text(support_motion(e));
-  if (moved.size() > 1)
-    return fmt::format("{} have moved by up to {}", counted(moved.size(), "support"), distance);
+  double farthest = 0.0, turn = 0.0;
+  for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
+    const Block& block = e.assembly.blocks[b];
+    if (!block.fixed) continue;
+    const Eigen::Vector4d& q = blocks.quaternion_wxyz[b];
+    const double distance = blocks.displacement[b].norm();
+    const double angle = 2.0 * std::atan2(q.tail<3>().norm(), std::abs(q[0]));
+    const bool shifts = distance > least, turns = angle * std::cbrt(block.volume) > least;
+    if (shifts || turns) moved.push_back(b);
+    if (shifts) farthest = std::max(farthest, distance);
+    if (turns) turn = std::max(turn, angle);
+  }
+  if (moved.empty()) return "";
+  const bool several = moved.size() > 1;
+  const char* up_to = several ? "up to " : "";
+  std::vector<std::string> how;
+  if (farthest > 0.0) how.push_back(fmt::format("moved by {}{}", up_to, length_text(farthest)));
+  if (turn > 0.0) how.push_back(fmt::format("turned by {}{:.3g} degrees", up_to, turn * kDegrees));
   const std::string& name = e.assembly.blocks[moved.front()].name;
-  return fmt::format("{} has moved by {}",
-                     name.empty() ? fmt::format("support block {}", moved.front()) : name, distance);
+  return fmt::format("{} {}",
+                     several        ? counted(moved.size(), "support") + " have"
+                     : name.empty() ? fmt::format("support block {} has", moved.front())
+                                    : name + " has",
+                     fmt::join(how, " and "));
 }
 
 namespace {
@@ -77,7 +86,8 @@ std::string carried_text(const Evaluation& e) {
   const std::string carry =
       fmt::format("The {} carry the weight of {}, {}{}{}", carriers(e),
                   counted(e.summary.free_blocks, "block"), weight_text(e), loads.empty() ? "" : ", ", loads);
-  if (support_motion(e) > 0.0) return fmt::format("{}, although {}.", carry, moved_text(e));
+  if (const std::string moved = moved_text(e); !moved.empty())
+    return fmt::format("{}, although {}.", carry, moved);
   if (e.last.frame.role == FrameRole::step)
     return fmt::format("{}, at rest after {:.4g} s of motion, in which {}.", carry, e.last.frame.time,
                        largest_displacement_text(e));
@@ -120,7 +130,7 @@ std::string assumptions(const Evaluation& e) {
                                 critical && !is_stage(e.last.frame.role) ? " at the critical value" : "");
   if (!critical || critical->parameter != "friction") given.push_back(friction_text(e.scene.joints));
   if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
-  if (support_motion(e) > 0.0) given.push_back("the motion of the supports");
+  if (!moved_text(e).empty()) given.push_back("the motion of the supports");
   if (!limits_pressure(e.scene.joints)) given.push_back("no crushing (not checked)");
   return fmt::format("{}", fmt::join(given, ", "));
 }
@@ -227,10 +237,10 @@ std::string certain_sentence(const Evaluation& e) {
         "that depends on "
         "its history. Assumed: {}.",
         assumptions(e));
-  const char* of = stages                    ? "at every stage "
-                   : !s.parts.empty()        ? "in the part that stands "
-                   : support_motion(e) > 0.0 ? "after the motion of the supports "
-                                             : "";
+  const char* of = stages                   ? "at every stage "
+                   : !s.parts.empty()       ? "in the part that stands "
+                   : !moved_text(e).empty() ? "after the motion of the supports "
+                                            : "";
   const std::optional<KeyNumber> crack = crack_answer(e);
   const std::string how = e.last.joints.wrenches.empty()   ? fmt::format("in the {}", carriers(e))
                           : e.scene.joints.have_strength() ? "within the limits of the joints"

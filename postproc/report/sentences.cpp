@@ -123,7 +123,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
     out.push_back(fmt::format(
         "The largest displacement of a block is {}{}.", length_text(*s.max_displacement_m),
         e.summary.max_displacement_time_s ? fmt::format(", at {:.4g} s", *e.summary.max_displacement_time_s)
-        : support_motion(e) > 0.0         ? ", the motion of the supports included"
+        : !moved_text(e).empty()          ? ", the motion of the supports included"
                                           : ""));
   return out;
 }

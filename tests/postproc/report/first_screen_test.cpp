@@ -229,6 +229,18 @@ TEST(FirstScreen, TheLargestDisplacementNamesSupportsOnlyIfTheyMove) {
             "The largest displacement of a block is 20 mm, the motion of the supports included.");
 }
 
+// A support that tilts about its centroid has moved, too.
+TEST(FirstScreen, SupportsThatOnlyTurnHaveMoved) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  const double half = 0.5 * 0.05 / kDegrees;
+  e.last.frame.blocks.quaternion_wxyz[0] = Eigen::Vector4d(std::cos(half), std::sin(half), 0, 0);
+  EXPECT_TRUE(reason_for_verdict(e).ends_with(", although support block 0 has turned by 0.05 degrees."))
+      << reason_for_verdict(e);
+  EXPECT_NE(certain_sentence(e).find("after the motion of the supports"), std::string::npos);
+  e.last.frame.blocks.displacement[0] = Vec3(0.01, 0, 0);
+  EXPECT_EQ(moved_text(e), "support block 0 has moved by 10 mm and turned by 0.05 degrees");
+}
+
 // A path to 2 s that ends at 1.5 s under a tenth of the weight from the side.
 TEST(FirstScreen, APathThatEndsEarlySaysWhatItBore) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
