@@ -65,14 +65,18 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   }
   for (int i = 0; i < ties.size(); ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];
-    if (positive(a) == positive(b)) continue;
+    if (positive(a) == positive(b) || !is_of_stack(a) || ties.force[i] == 0.0) continue;
     const Vec3 from = ties.point_a[i] - foot, to = ties.point_b[i] - foot;
     const double s = along.dot(from), t = along.dot(to);
     const double share = s * t < 0.0 ? s / (s - t) : 0.5;  // else the bar ends in a block that the plane cuts
-    if (outwards.dot((1.0 - share) * from + share * to) <= 0.0) continue;  // beyond the axis
+    const Vec3 at = (1.0 - share) * from + share * to;
+    if (outwards.dot(at) <= 0.0) continue;  // beyond the axis
     const Vec3 on_b = tie_force_on_b(ties, i);
-    if (const auto row = rows.find(assembly.blocks[a].ring); row != rows.end())
-      row->second.tie_force += along.dot(positive(b) ? on_b : Vec3(-on_b));
+    const int course = assembly.blocks[a].ring;
+    // In a motion a course that is cracked through has no joint here.
+    const auto [row, is_alone] = rows.try_emplace(course, HoopRow{.ring = course, .height = at.z()});
+    counts[course] += is_alone ? 1 : 0;
+    row->second.tie_force += along.dot(positive(b) ? on_b : Vec3(-on_b));
   }
   std::vector<HoopRow> out;
   for (auto& [number, row] : rows) {

@@ -21,7 +21,7 @@ std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plan
 /// of greater azimuth receive from the others, compression positive.
 struct HoopRow {
   int ring = 0;
-  double height = 0.0;      ///< m, mean height of the joints crossed
+  double height = 0.0;      ///< m, mean height of the joints crossed; without any, of a tie
   double head_force = 0.0;  ///< N, through head joints
   double bed_force = 0.0;   ///< N, through bed joints, by friction and by their inclination
   double tie_force = 0.0;   ///< N, of ties; negative in tension
@@ -30,7 +30,7 @@ struct HoopRow {
 };
 
 /// Forces across the meridian at an azimuth about the axis of the stack with the course `ring`, one row per
-/// course of it that has joints across the meridian. A tie counts for the course of its block a.
+/// course of it that has joints or taut ties across the meridian. A tie counts for the course of its block a.
 std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& joints, double azimuth_deg,
                                  const TieTable& ties = {}, int ring = 0);
 

@@ -69,7 +69,7 @@ const Columns<HoopRow>& hoop_columns() {
   using H = HoopRow;
   static const Columns<H> columns{
       {"ring", "", "ring of the joints' upper part", &H::ring},
-      {"height_m", "m", "mean height of the joints crossed", &H::height},
+      {"height_m", "m", "mean height of the joints crossed; without any, of a tie", &H::height},
       {"head_force_N", "N", "force through head joints, compression positive", &H::head_force},
       {"bed_force_N", "N", "force through bed joints, compression positive", &H::bed_force},
       {"tie_force_N", "N", "of chains and other ties; negative in tension", &H::tie_force},
