@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "assembly/base/disjoint_sets.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
@@ -39,34 +41,60 @@ std::vector<BedFacet> end_facets(const Assembly& assembly, int block, const Shel
   return end.beds[0];
 }
 
-/// m: the area of a joint on a support over the thickness of the whole shell along the nearest facet on the
-/// beds of the block that it carries; NaN without one.
+Vec3 middle_of(const BedFacet& f) {
+  return 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
+}
+
+/// Share of the thickness of the whole shell that a facet and those of a bed cover where its middle is: less
+/// than 1 beside a cavity.
+double share_covered(const std::vector<BedFacet>& bed, const BedFacet& at) {
+  const Vec3 middle = middle_of(at);
+  const Vec3 along = at.intrados_b + at.extrados_b - at.intrados_a - at.extrados_a;
+  const Vec3 through = 0.5 * (at.extrados_a + at.extrados_b - at.intrados_a - at.intrados_b);
+  const double farthest = through.squaredNorm() / (at.to - at.from);  // beyond the shell
+  std::vector<std::pair<double, double>> beside{{at.from, at.to}};
+  for (const BedFacet& f : bed) {
+    const double a = along.dot(0.5 * (f.intrados_a + f.extrados_a) - middle);
+    const double b = along.dot(0.5 * (f.intrados_b + f.extrados_b) - middle);
+    if (a * b <= 0.0 && std::abs(through.dot(middle_of(f) - middle)) < farthest)
+      beside.emplace_back(f.from, f.to);
+  }
+  std::ranges::sort(beside);
+  double covered = 0.0, end = 0.0;
+  for (const auto& [from, to] : beside) {
+    covered += std::max(0.0, to - std::max(from, end));
+    end = std::max(end, to);
+  }
+  return covered;
+}
+
+/// m: the area of a joint on a support over the thickness of all wythes along the nearest facet on the beds
+/// of the block that it carries; NaN without one.
 double length_of(const JointWrench& joint, const Assembly& assembly, int carried, const Shell& shell) {
   const Block& block = assembly.blocks[carried];
-  const BedFacet* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  const auto search = [&](const std::vector<BedFacet>& bed) {
-    for (const BedFacet& f : bed) {
-      const Vec3 middle = 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
-      const double distance = (middle - joint.centroid).squaredNorm();
+  double length = std::numeric_limits<double>::quiet_NaN(), least = std::numeric_limits<double>::infinity();
+  const auto search = [&](const std::vector<BedFacet>& facets, const std::vector<BedFacet>& bed) {
+    const BedFacet* nearest = nullptr;
+    for (const BedFacet& f : facets) {
+      const double distance = (middle_of(f) - joint.centroid).squaredNorm();
       if (distance >= least) continue;
       least = distance;
       nearest = &f;
     }
+    if (!nearest) return;
+    const BedFacet& f = *nearest;
+    const double area = polygon_area(std::array{f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a});
+    const double edges = 0.5 * ((f.intrados_b - f.intrados_a).norm() + (f.extrados_b - f.extrados_a).norm());
+    length = joint.area * (f.to - f.from) / share_covered(bed, f) * edges / area;
   };
-  std::vector<BedFacet> end;
   for (const int bed : {block.ring, block.ring + block.num_rings}) {
     if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
     if (assembly.sheet_of(bed) && assembly.stack_of(bed) != assembly.stack_of(block.ring))
-      search(end = end_facets(assembly, carried, shell));
+      search(end_facets(assembly, carried, shell), shell.beds[block.ring]);
     else
-      search(shell.beds[bed]);
+      search(shell.beds[bed], shell.beds[bed]);
   }
-  if (!nearest) return std::numeric_limits<double>::quiet_NaN();
-  const BedFacet& f = *nearest;
-  const double area = polygon_area(std::array{f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a});
-  const double length = 0.5 * ((f.intrados_b - f.intrados_a).norm() + (f.extrados_b - f.extrados_a).norm());
-  return joint.area * (f.to - f.from) * length / area;
+  return length;
 }
 
 }  // namespace

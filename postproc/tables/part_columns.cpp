@@ -103,7 +103,8 @@ const Columns<Reaction>& reaction_columns() {
       {"outward_force_N", "N",
        "sum of its joints along the outward direction at the centroid of each; empty: no vault", &S::outward},
       {"length_m", "m",
-       "of its joints along the course, area over thickness; empty: no thickness, as of the cut back of a "
+       "of its joints along the course, area over the thickness of the wythes; empty: none, as of the cut "
+       "back of a "
        "rib",
        &S::length},
       {"vertical_N_per_m", "N/m", "downwards on the support, per metre of support",

@@ -11,15 +11,22 @@ using test::kGravity;
 
 constexpr double kRounding = 1e-12;  // m and m2: sums of four numbers near 1
 
-// The support bears a wythe 0.8 m thick, half of the shell: 0.96 m2 of 1.6 m are 0.6 m of support.
-TEST(Reactions, LengthOfSupportIsThatOfTheWholeShell) {
+// The support bears a wythe 0.8 m thick, half of the shell, on 0.96 m2. Beside a cavity these are 1.2 m of
+// support; beside another wythe on 0.96 m2 each is half of 1.2 m.
+TEST(Reactions, LengthOfSupportIsThatOfAllWythesWithoutCavities) {
   const Assembly a = test::column_with_wythes();
-  const Shell shell = shell_of(a, Vec3::UnitZ());
+  Shell shell = shell_of(a, Vec3::UnitZ());
   const Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
-  const std::vector<Reaction> reactions =
-      support_reactions(a, joint_wrenches(a, frame.contacts, shell), shell);
-  ASSERT_EQ(reactions.size(), 1u);
-  EXPECT_NEAR(reactions[0].length, 0.6, kRounding);
+  const JointWrenches joints = joint_wrenches(a, frame.contacts, shell);
+  ASSERT_EQ(support_reactions(a, joints, shell).size(), 1u);
+  EXPECT_NEAR(support_reactions(a, joints, shell)[0].length, 1.2, kRounding);
+  BedFacet beside = shell.beds[0].at(0);
+  for (Vec3* corner : {&beside.intrados_a, &beside.intrados_b, &beside.extrados_a, &beside.extrados_b})
+    corner->y() += 0.8;
+  beside.from = 0.5;
+  beside.to = 1.0;
+  shell.beds[0].push_back(beside);
+  EXPECT_NEAR(support_reactions(a, joints, shell)[0].length, 0.6, kRounding);
 }
 
 // The column stands on two feet that cover half of the bed's outline: 0.48 m2, on 0.6 m of a shell of 0.8 m.
