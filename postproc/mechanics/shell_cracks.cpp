@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
+#include <span>
 
 #include "assembly/base/disjoint_sets.hpp"
 
@@ -38,6 +40,26 @@ double gap_of(const ContactTable& c, int row, double floor) {
   return c.normal_force[row] > 0.0 || gap <= floor ? 0.0 : gap;
 }
 
+/// m along a direction, over which a joint is open: to where its gap, linear between open and closed points,
+/// vanishes. One corner alone opens over a length, too.
+double open_length(const ContactTable& c, const JointWrench& j, const JointWrenches& joints,
+                   const Vec3& along) {
+  const std::span rows(joints.contacts.data() + j.contact_start, static_cast<size_t>(j.num_contacts));
+  double from = std::numeric_limits<double>::infinity(), to = -from;
+  for (const int open : rows) {
+    const double gap = gap_of(c, open, joints.floor.length);
+    if (gap == 0.0) continue;
+    for (const int other : rows) {
+      const bool is_open = gap_of(c, other, joints.floor.length) > 0.0;
+      const double share = is_open ? 1.0 : gap / (gap - std::min(0.0, c.gap[other]));
+      const double x = along.dot(c.point[open] + share * (c.point[other] - c.point[open]));
+      from = std::min(from, x);
+      to = std::max(to, x);
+    }
+  }
+  return std::max(0.0, to - from);
+}
+
 OpenJoint open_joint(const ContactTable& c, const JointWrenches& joints, int number, const Vec3& outwards) {
   constexpr double kEdge = 0.25;  // share of the depth, at either edge
   const JointWrench& j = joints.wrenches[number];
@@ -56,7 +78,6 @@ OpenJoint open_joint(const ContactTable& c, const JointWrenches& joints, int num
     high = high.cwiseMax(place(joints.contacts[i]));
   }
   open.depth = high.y() - low.y();
-  double from = high.x(), to = low.x();
   for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
     const int row = joints.contacts[i];
     const double gap = gap_of(c, row, joints.floor.length);
@@ -67,10 +88,8 @@ OpenJoint open_joint(const ContactTable& c, const JointWrenches& joints, int num
       if (at.y() <= low.y() + kEdge * open.depth) open.inner = std::max(open.inner, gap);
       if (at.y() >= high.y() - kEdge * open.depth) open.outer = std::max(open.outer, gap);
     }
-    from = std::min(from, at.x());
-    to = std::max(to, at.x());
   }
-  open.length = std::max(0.0, to - from);
+  open.length = open_length(c, j, joints, along);
   open.from = j.patch.centroid + low.x() * along;
   open.to = j.patch.centroid + high.x() * along;
   return open;

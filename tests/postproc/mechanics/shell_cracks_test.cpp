@@ -133,6 +133,23 @@ TEST(ShellCracks, FollowTheHeadJointsFromCourseToCourse) {
   EXPECT_NEAR(cracks[0].rotation, 3e-3 / 1.0, 1e-4) << "outer less inner gap over the depth";
 }
 
+// A joint open at one corner, by as much as the next one along its trace is closed: open over half its length.
+TEST(ShellCracks, OneOpenCornerOpensTheJointOverALength) {
+  Vault vault({{{0, 1}, {1e-3, 1e-3}}});
+  const Evaluation& e = vault.evaluation();
+  ContactTable contacts = e.last.frame.contacts;
+  std::vector<size_t> corners;
+  for (size_t i = 0; i < contacts.gap.size(); ++i)
+    if (contacts.gap[i] > 0.0) corners.push_back(i);
+  ASSERT_EQ(corners.size(), 4u);
+  const auto is_outer = [&](size_t i) { return contacts.point[i].norm() > 7.5; };  // of 10 and 11 m, less 3
+  const auto is_upper = [&](size_t i) { return contacts.point[i].z() > 0.1; };
+  for (const size_t i : corners) contacts.gap[i] = !is_outer(i) ? -1.0 : is_upper(i) ? -1e-3 : 1e-3;
+  const std::vector<ShellCrack> cracks = shell_cracks(e.assembly, contacts, e.last.joints, e.axes);
+  ASSERT_EQ(cracks.size(), 1u);
+  EXPECT_NEAR(cracks[0].length, 0.5 * 0.02 * 11.0, 1e-3);  // the chord is not quite along the trace
+}
+
 // Joints next to each other in one course are two cracks, and what is below a fiftieth of the widest is left
 // out.
 TEST(ShellCracks, DoNotRunAlongACourse) {
