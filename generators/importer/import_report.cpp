@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/place_text.hpp"
 
 namespace cupola {
 
@@ -40,10 +41,11 @@ std::string to_text(const ImportReport& r) {
       "{} by Nef polyhedra; largest relative volume error {:.1e}\n",
       counted(r.origins.size(), "block"), counted(r.already_convex, "piece"), r.by_planes, r.as_prisms,
       r.by_nef, r.largest_volume_error);
-  text += fmt::format(
-      "extents x {:.4g} to {:.4g} m, y {:.4g} to {:.4g} m, z {:.4g} to {:.4g} m; volume {:.6g} m3, as drawn "
-      "{:.6g} m3\n",
-      r.low.x(), r.high.x(), r.low.y(), r.high.y(), r.low.z(), r.high.z(), r.volume_of_parts, r.drawn_volume);
+  const auto place = [extent = (r.high - r.low).maxCoeff()](double at) { return place_text(at, extent, 4); };
+  text +=
+      fmt::format("extents x {} to {} m, y {} to {} m, z {} to {} m; volume {:.6g} m3, as drawn {:.6g} m3\n",
+                  place(r.low.x()), place(r.high.x()), place(r.low.y()), place(r.high.y()), place(r.low.z()),
+                  place(r.high.z()), r.volume_of_parts, r.drawn_volume);
   if (r.courses.courses > 0)
     text += fmt::format("{} {}: {}\n", counted(r.courses.courses, "course"),
                         r.courses.of_file ? "as the file numbers them" : "found", r.courses.kind);

@@ -11,7 +11,8 @@
 namespace cupola {
 
 std::string plot_style() {
-  return "set border 3 lc rgb '#444444'\nset tics nomirror textcolor rgb '#222222'\n"
+  // With ten digits, ticks differ at coordinates of maps, too.
+  return "set border 3 lc rgb '#444444'\nset tics nomirror textcolor rgb '#222222' format '% .10g'\n"
          "set grid lc rgb '#dddddd' lw 1\nset key samplen 2 spacing 1.1\n";
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/place_text.hpp"
 
 namespace cupola {
 namespace {
@@ -23,10 +24,8 @@ std::string course_text(const Evaluation& e, int course, const CourseMotion& mot
     name += " on its support";
   else if (below && below != sheet)
     name += " on " + below->name;
-  constexpr double kShown = 1e-4;  // m
-  const double height = std::round(motion.height / kShown) * kShown + 0.0;
   const double most = std::max({motion.hinging, motion.sliding, motion.parting});
-  return fmt::format("{} (z = {:.3g} m, {})", name, height,
+  return fmt::format("{} (z = {} m, {})", name, place_text(motion.height, model_size(e.assembly)),
                      most == motion.hinging   ? "hinges"
                      : most == motion.sliding ? "slides"
                                               : "parts");

@@ -123,7 +123,7 @@ std::string html_table(const Table& table) {
     out += "<tr>";
     for (size_t i = 0; i < row.size(); ++i)
       out += fmt::format("<td{}>{}</td>", text[i] ? " class=\"text\"" : "",
-                         html_text(to_display(row[i], table.columns[i].floor)));
+                         html_text(to_display(row[i], table.columns[i])));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

@@ -1,6 +1,8 @@
 #include "postproc/tables/result_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -40,11 +42,25 @@ Table with_member_names(const Assembly& assembly, Table table) {
   return table;
 }
 
-/// Gives the columns of forces the floor of the frame, and those of moments that times the size of a block.
+/// m, between the lowest and the highest height of a column; infinity without two that differ.
+double spread_of(const Table& table, size_t column) {
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  double low = kUnknown, high = -kUnknown;
+  for (const auto& row : table.rows) {
+    low = std::fmin(low, std::get<double>(row[column]));  // skips NaN
+    high = std::fmax(high, std::get<double>(row[column]));
+  }
+  return high > low ? high - low : kUnknown;
+}
+
+/// Gives the columns of forces the floor of the frame, and those of moments that times the size of a block;
+/// those of heights their spread.
 void set_floors(double force, double size, Table* table) {
-  for (Table::Column& column : table->columns) {
+  for (size_t i = 0; i < table->columns.size(); ++i) {
+    Table::Column& column = table->columns[i];
     if (column.unit == "N") column.floor = force;
     if (column.unit == "N m") column.floor = force * size;
+    if (column.key == "height_m") column.spread = spread_of(*table, i);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/base/place_text.hpp"
 #include "assembly/files/csv_text.hpp"
 
 namespace cupola {
@@ -83,20 +84,21 @@ std::string to_latex(const Table& table) {
   }
   for (const auto& row : table.rows) {
     for (size_t i = 0; i < row.size(); ++i)
-      body += fmt::format("{}{}", i > 0 ? " & " : "", latex_text(to_display(row[i], table.columns[i].floor)));
+      body += fmt::format("{}{}", i > 0 ? " & " : "", latex_text(to_display(row[i], table.columns[i])));
     body += " \\\\\n";
   }
   return fmt::format("\\begin{{tabular}}{{{}}}\n\\hline\n{} \\\\\n\\hline\n{}\\hline\n\\end{{tabular}}\n",
                      kinds, head, body);
 }
 
-std::string to_display(const Table::Cell& cell, double floor) {
+std::string to_display(const Table::Cell& cell, const Table::Column& column) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* count = std::get_if<int>(&cell)) return fmt::format("{}", *count);
   const double value = std::get<double>(cell);
   const double size = std::abs(value);
-  if (size <= floor) return "0";
+  if (size <= column.floor) return "0";
   if (!std::isfinite(value)) return std::isnan(value) ? "" : value > 0 ? "∞" : "-∞";
+  if (size > column.spread) return place_text(value, column.spread, 4);
   if (size >= 1000.0 && size < 1e7) return fmt::format("{:.0f}", value);
   if (size >= 1e-3 && size < 1e7) return fmt::format("{:.4g}", value);
   return fmt::format("{:.2e}", value);

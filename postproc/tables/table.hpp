@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,6 +14,8 @@ struct Table {
     std::string unit;     ///< "" for pure numbers and names
     std::string meaning;  ///< one phrase
     double floor = 0.0;   ///< of the numbers: up to it they are negligible
+    double spread =
+        std::numeric_limits<double>::infinity();  ///< m, of heights: those above it have its digits
   };
   using Cell = std::variant<double, int, std::string>;
 
@@ -36,7 +39,7 @@ void append_csv_rows(const Table& table, std::string* text);
 std::string to_latex(const Table& table);
 
 /// A cell as the report shows it: four significant digits, without exponent from 1e-3 to 1e7; 0 up to the
-/// floor; nothing if undefined (NaN); texts unchanged.
-std::string to_display(const Table::Cell& cell, double floor = 0.0);
+/// floor of its column; heights as place_text; nothing if undefined (NaN); texts unchanged.
+std::string to_display(const Table::Cell& cell, const Table::Column& column = {});
 
 }  // namespace cupola

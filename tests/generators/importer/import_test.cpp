@@ -29,6 +29,15 @@ TEST_F(Import, ReadsObjObjectsAsBlocks) {
   EXPECT_NEAR((model.blocks[1].centroid - Vec3(0.75, 0.5, 1.5)).norm(), 0.0, 1e-15);
 }
 
+TEST(ImportReport, ExtentsAtCoordinatesOfMapsHaveTheDigitsOfTheModel) {
+  ImportReport report;
+  report.low = Vec3(5e5, 5.4e6, 432.0);
+  report.high = report.low + Vec3(2.5, 1.0, 3.2);
+  EXPECT_NE(to_text(report).find("x 500000 to 500002.5 m, y 5400000 to 5400001 m, z 432 to 435.2 m"),
+            std::string::npos)
+      << to_text(report);
+}
+
 // Two unit cubes that share a face, an edge or a corner, as stones of an STL file do.
 // Two cubes, the second at an offset from the first. `rounding`: m, by which a corner that they may share lies
 // too high, so that a face that they share is cut along other diagonals into triangles that do not coincide.

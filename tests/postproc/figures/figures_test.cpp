@@ -14,6 +14,7 @@
 #include "assembly/model/outward.hpp"
 #include "postproc/compare/side_by_side.hpp"
 #include "postproc/evaluation/meridians.hpp"
+#include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "tests/postproc/scene.hpp"
@@ -285,6 +286,15 @@ TEST(Figures, HaveNoDate) {
   const std::string folder = test::fresh_folder("figures");
   ASSERT_TRUE(draw_figures(folder, {figure}).empty());
   EXPECT_NE(read_text(folder + "/line.pdf").find("/CreationDate (D:19700101000000"), std::string::npos);
+}
+
+TEST(Figures, TicksDifferAtCoordinatesOfMaps) {
+  Figure figure;
+  figure.name = "map";
+  figure.commands = plot_style() + "set yrange [5399990:5400010]\nset ytics 5\nplot 5400000\n";
+  const std::string folder = test::fresh_folder("figures");
+  ASSERT_TRUE(draw_figures(folder, {figure}).empty());
+  EXPECT_NE(read_text(folder + "/map.svg").find("5399995"), std::string::npos);
 }
 
 // gnuplot reads commands from ~/.gnuplot before those of a script.

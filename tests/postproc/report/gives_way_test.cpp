@@ -74,5 +74,20 @@ TEST(GivesWay, AMechanismShowsWhichJointsGiveWay) {
   EXPECT_NE(html.find("other contact forces might balance the loads"), std::string::npos);
 }
 
+// Three blocks of 0.5 m above the sea: the same digits as at zero.
+TEST(GivesWay, HeightsAboveTheSeaAreToldApart) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.rings.resize(3);
+  MechanismMotion motion;
+  motion.sliding = 2.0;
+  motion.joints.sliding = 2;
+  motion.by_course[1] = {.sliding = 1.0, .height = 1000.5, .on = 0};
+  motion.by_course[2] = {.sliding = 1.0, .height = 1001.0, .on = 1};
+  e.gives_way = motion;
+  EXPECT_NE(how_it_gives_way(e).find("course 1 (z = 1000.5 m, slides), course 2 (z = 1001 m, slides)"),
+            std::string::npos)
+      << how_it_gives_way(e);
+}
+
 }  // namespace
 }  // namespace cupola::gives_way_test

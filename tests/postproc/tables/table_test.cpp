@@ -52,8 +52,14 @@ TEST(Table, ReportShowsFourSignificantDigits) {
   EXPECT_EQ(to_display(-2.5e12), "-2.50e+12");
   EXPECT_EQ(to_display(std::numeric_limits<double>::infinity()), "∞");
   EXPECT_EQ(to_display(std::nan("")), "");
-  EXPECT_EQ(to_display(-2e-9, 1e-9), "-2.00e-09");
-  EXPECT_EQ(to_display(-1e-9, 1e-9), "0") << "up to the floor";
+  Table::Column column{"height_m", "m", ""};
+  column.floor = 1e-9;
+  EXPECT_EQ(to_display(-2e-9, column), "-2.00e-09");
+  EXPECT_EQ(to_display(-1e-9, column), "0") << "up to the floor";
+  column.spread = 3.0;
+  EXPECT_EQ(to_display(1525.6543, column), "1525.654") << "far above the other heights' spread";
+  EXPECT_EQ(to_display(1525.0, column), "1525");
+  EXPECT_EQ(to_display(2.65432, column), "2.654");
   EXPECT_EQ(to_display(42), "42");
 }
 
