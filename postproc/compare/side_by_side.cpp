@@ -8,28 +8,8 @@
 
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/report/html.hpp"
-#include "postproc/tables/csv_file.hpp"
 
 namespace cupola {
-
-namespace {
-
-/// The name of the wythe of a map in a folder as the case gives it: file names have only its letters and
-/// digits.
-std::string name_of_wythe(const std::string& folder, const ShellMap& map) {
-  const std::string path = folder + "/wythes.csv";
-  if (!std::filesystem::exists(path)) return map.wythe;
-  const CsvFile csv = read_csv(path);
-  const size_t wythe = csv.column("wythe");
-  ShellMap named;
-  for (const std::vector<std::string>& row : csv.rows) {
-    named.wythe = row[wythe];
-    if (named.suffix() == map.suffix()) return named.wythe;
-  }
-  return map.wythe;
-}
-
-}  // namespace
 
 std::vector<Figure> common_maps(const std::vector<std::string>& folders,
                                 const std::vector<std::string>& labels) {
@@ -42,7 +22,6 @@ std::vector<Figure> common_maps(const std::vector<std::string>& folders,
   for (size_t run = 0; run < folders.size(); ++run)
     for (ShellMap& map : read_shell_maps(folders[run])) {
       scales.include(map);
-      map.wythe = name_of_wythe(folders[run], map);
       auto same = std::ranges::find_if(maps, [&map](const std::vector<OfRun>& of_wythe) {
         return of_wythe.front().map.wythe == map.wythe;
       });

@@ -107,6 +107,8 @@ void read_boxes(const std::string& path, ShellMap* map) {
                           number("friction_use"), number("kern_use")});
   }
   if (map->boxes.empty()) return;
+  if (const auto name = std::ranges::find(csv.columns, "wythe"); name != csv.columns.end())
+    map->wythe = csv.rows.front()[static_cast<size_t>(name - csv.columns.begin())];
   const auto [first, last] = std::ranges::minmax(map->boxes, {}, &ShellBox::ring);
   map->first_ring = first.ring;
   map->num_rings = last.ring + 1;
@@ -119,7 +121,7 @@ void read_boxes(const std::string& path, ShellMap* map) {
 const Columns<ShellBox>& shell_columns() {
   using B = ShellBox;
   static const Columns<B> columns{
-      {"block", "", "index in the assembly", &B::block},
+      {"block", "", "index in the assembly; of a wythe, its name is in a last column, `wythe`", &B::block},
       {"ring", "", "ring of the unrolled shell", &B::ring},
       {"from", "",
        "where the block begins: azimuth in deg, in wall.csv m along the wall, in arch.csv y in m; of a "
@@ -195,10 +197,14 @@ std::vector<TallBox> tall_boxes(const ShellMap& map) {
 }
 
 Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes) {
-  return make_table(fmt::format("{}{}", map.table_name(), map.suffix()),
-                    fmt::format("Blocks of the unrolled {}, as the maps show them",
-                                map.wythe.empty() ? "shell" : fmt::format("wythe {}", map.wythe)),
-                    shell_columns(), boxes);
+  Table table = make_table(fmt::format("{}{}", map.table_name(), map.suffix()),
+                           fmt::format("Blocks of the unrolled {}, as the maps show them",
+                                       map.wythe.empty() ? "shell" : fmt::format("wythe {}", map.wythe)),
+                           shell_columns(), boxes);
+  if (map.wythe.empty()) return table;
+  table.columns.push_back({"wythe", "", "its name in the case"});  // the file's has only letters and digits
+  for (auto& row : table.rows) row.emplace_back(map.wythe);
+  return table;
 }
 
 std::vector<ShellMap> read_shell_maps(const std::string& post_folder) {

@@ -51,7 +51,7 @@ std::vector<ShellMap> shell_maps(const Evaluation& evaluation);
 Table shell_table(const ShellMap& map, std::span<const ShellBox> boxes);
 
 /// The maps in the folder of a run, from the lowest sheet upwards; none if it has no rings or no equilibrium.
-/// The name of a wythe is as in the file's.
+/// Wythes are named as in the case; in files of before 0.5.3 as the file is.
 std::vector<ShellMap> read_shell_maps(const std::string& post_folder);
 
 }  // namespace cupola

@@ -43,7 +43,6 @@ TEST(SideBySide, WythesAreNamedAsInTheCase) {
   const Table table = shell_table(map, map.boxes);
   const std::string run = test::fresh_folder("run");
   write_text_atomically(run + "/" + table.name + ".csv", to_csv(table));
-  write_text_atomically(run + "/wythes.csv", "ring,wythe\n0,wall\n0,wall 2\n");
   const std::vector<Figure> maps = common_maps({run}, {"A"});
   ASSERT_FALSE(maps.empty());
   EXPECT_NE(maps[0].title.find("over the wythe wall 2"), std::string::npos) << maps[0].title;
