@@ -84,7 +84,7 @@ TEST(Chain, HoldsADomeWithoutFrictionAtItsBase) {
   none.wrenches.clear();
   const std::vector<HoopRow> alone = hoop_forces(e.assembly, none, 0.0, e.last.frame.ties);
   ASSERT_EQ(alone.size(), 1u);
-  EXPECT_NEAR(alone[0].tie_force / chain, 1.0, 1e-12);  // rounding
+  EXPECT_NEAR(alone[0].tie_force / chain, 1.0, 1e-12);     // rounding
   EXPECT_NEAR(alone[0].height, e.chains[0].height, 2e-3);  // as built: the dome has settled
 
   scene.geometry.chains.clear();
