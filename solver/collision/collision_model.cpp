@@ -10,6 +10,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/joint_rule.hpp"
+#include "solver/collision/open_pieces.hpp"
 
 namespace cupola {
 namespace {
@@ -160,6 +161,7 @@ CollisionModel make_collision_model(const Assembly& assembly) {
     ++model.part_start[part.block + 1];
   }
   std::partial_sum(model.part_start.begin(), model.part_start.end(), model.part_start.begin());
+  find_open_pieces(&model);
   for (int block = 0; block < model.num_blocks(); ++block)
     model.block_box.push_back(smallest_box(model, block));
   model.faces.shrink_to_fit();

@@ -30,13 +30,15 @@ constexpr double kOperationsPerBlock = 1e5;
 
 /// Face of a convex part. Coordinates in the axes of its block, relative to the block's centroid.
 struct CollisionFace {
-  int id = 0;  ///< index of the face in the assembly
+  int id = 0;  ///< index of the face in the assembly; pieces follow behind all faces
   FaceKind kind = FaceKind::free;
   Vec3 normal = Vec3::UnitZ();   ///< unit, outward
   Vec3 centroid = Vec3::Zero();  ///< m
   double radius = 0.0;           ///< m, largest distance of a corner from the centroid
   int corner_start = 0;          ///< into CollisionModel::corners
   int num_corners = 0;
+  int piece_start = 0;  ///< into CollisionModel::pieces
+  int num_pieces = 0;   ///< 0: no other part of the block covers any of it
 };
 
 /// Straight edge of a convex part, between two of its vertices.
@@ -63,7 +65,8 @@ struct CollisionPart {
 struct CollisionModel {
   std::vector<CollisionPart> parts;  ///< in the order of the assembly; the parts of a block are contiguous
   std::vector<CollisionFace> faces;
-  std::vector<Vec3> corners;  ///< m, of the faces, counter-clockwise seen from outside
+  std::vector<CollisionFace> pieces;  ///< of faces that other parts of their block cover in part
+  std::vector<Vec3> corners;          ///< m, of the faces, counter-clockwise seen from outside
   std::vector<CollisionEdge> edges;
   std::vector<Vec3> vertices;          ///< m, of the parts, each stored once
   std::vector<int> part_start;         ///< first part of each block, then the end (num_blocks + 1)
@@ -74,6 +77,11 @@ struct CollisionModel {
 
   std::span<const Vec3> face_corners(const CollisionFace& face) const {
     return {corners.data() + face.corner_start, static_cast<std::size_t>(face.num_corners)};
+  }
+  /// What other parts of the block leave open of a face that is not internal: convex pieces, or the face.
+  std::span<const CollisionFace> open_pieces(const CollisionFace& face) const {
+    if (face.num_pieces == 0) return {&face, 1};
+    return {pieces.data() + face.piece_start, static_cast<std::size_t>(face.num_pieces)};
   }
   std::span<const CollisionFace> faces_of(const CollisionPart& part) const {
     return {faces.data() + part.face_start, static_cast<std::size_t>(part.num_faces)};

@@ -160,13 +160,16 @@ std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part
       if (b.kind == FaceKind::internal || a.normal.dot(moved_b.normal) > opposed) continue;
       const Vec3 normal = (a.normal - moved_b.normal).normalized();
       if (!may_touch(model, a, b, moved_b, pose_ab, normal, options)) continue;
-      JointPatch patch = clip_faces(model, a, b, pose_ab, normal, options);
-      const double width = polygon_width(patch.outline());
-      if (patch.min_gap > options.margin || width < options.min_width || -patch.min_gap > width) continue;
-      patch.part_a = part_a;
-      patch.part_b = part_b;
-      classify(shape_a, a.kind, shape_b, b.kind, &patch);
-      patches.push_back(std::move(patch));
+      for (const CollisionFace& of_a : model.open_pieces(a))
+        for (const CollisionFace& of_b : model.open_pieces(b)) {
+          JointPatch patch = clip_faces(model, of_a, of_b, pose_ab, normal, options);
+          const double width = polygon_width(patch.outline());
+          if (patch.min_gap > options.margin || width < options.min_width || -patch.min_gap > width) continue;
+          patch.part_a = part_a;
+          patch.part_b = part_b;
+          classify(shape_a, a.kind, shape_b, b.kind, &patch);
+          patches.push_back(std::move(patch));
+        }
     }
   }
   if (patches.empty()) return patches;

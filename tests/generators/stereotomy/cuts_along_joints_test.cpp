@@ -34,6 +34,19 @@ double touched_area(const Assembly& assembly, double y, bool of_support) {
   return area;
 }
 
+// The part beyond y = 1 m meets two others, above and below the cut. Their faces there are internal, although
+// neither is all of the face that covers them.
+TEST(CutsAlongJoints, FacesThatALargerOneCoversAreInternal) {
+  Cut cut;
+  cut.kind = Cut::Kind::prism;
+  cut.axis = Cut::Axis::x;
+  cut.u = {1.0, 1.0, -9.0, -9.0};
+  cut.v = {0.4, 0.6, 10.6, -9.6};
+  Case c = wall({cut});
+  c.geometry.bond = StackBond{1, 1, 1};
+  EXPECT_NEAR(touched_area(cut_assembly(c), 1.0, false), kHeight * kThickness, 1e-12);  // rounding
+}
+
 // Stones that end on the plane are held as those that it cuts, and where it cuts none.
 TEST(CutsAlongJoints, AHeldCutAlongJointsHoldsAllCourses) {
   for (const bool is_running : {true, false})
