@@ -322,26 +322,37 @@ std::string message_of(const Case& c) {
 }
 
 // Two piers with a gap of 0.3 m, each on a support that would reach 1 m beyond it, under the other: they end
-// in the middle of the gap.
+// in the middle of the gap, also where a drain through the foot leaves three parts of each support.
 TEST(Members, StandOnTheirOwnSupportsOnly) {
-  std::vector<Member> piers;
-  for (const char* name : {"one", "other"}) {
-    Member pier;
-    pier.name = name;
-    pier.surface = WallSurface{1.0, 2.0, 0.5};
-    pier.bond = StackBond{1, 1, 2};
-    if (!piers.empty()) pier.at = Place{{1.3, 0.0, 0.0}, 0.0};
-    piers.push_back(pier);
-  }
-  ModelReport report;
-  const Assembly assembly = check_and_report(members_case(piers), &report);
-  EXPECT_EQ(report.num_joints, 2);
-  for (const Part& part : assembly.parts)
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
-      for (const int v : assembly.face(f)) {
-        const bool first = part.block < 2;
-        EXPECT_LE((first ? 1.0 : -1.0) * (assembly.vertices[v].x() - 1.15), 1e-12) << "block " << part.block;
+  for (const bool is_drained : {false, true}) {
+    SCOPED_TRACE(is_drained);
+    std::vector<Member> piers;
+    for (const char* name : {"one", "other"}) {
+      Member pier;
+      pier.name = name;
+      pier.surface = WallSurface{1.0, 2.0, 0.5};
+      pier.bond = StackBond{1, 1, 2};
+      if (!piers.empty()) pier.at = Place{{1.3, 0.0, 0.0}, 0.0};
+      if (is_drained) {
+        Cut& drain = pier.cuts.emplace_back();
+        drain.kind = Cut::Kind::prism;
+        drain.axis = Cut::Axis::y;
+        drain.u = {0.4, 0.6, 0.6, 0.4};
+        drain.v = {-0.3, -0.3, 0.1, 0.1};
       }
+      piers.push_back(pier);
+    }
+    ModelReport report;
+    const Assembly assembly = check_and_report(members_case(piers), &report);
+    EXPECT_EQ(report.num_joints, 2);
+    for (const Part& part : assembly.parts)
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const int v : assembly.face(f)) {
+          const bool first = part.block < 2;
+          EXPECT_LE((first ? 1.0 : -1.0) * (assembly.vertices[v].x() - 1.15), 1e-12)  // rounding
+              << "block " << part.block;
+        }
+  }
 }
 
 // The fixed ring of each tower, and the block that holds one at a cut, have the member that they bear.
