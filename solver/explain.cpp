@@ -31,8 +31,7 @@ FirstProblem build_first_problem(const Case& scene, const Assembly& assembly) {
   FirstProblem first{make_model(scene, assembly), {}, {}, {}};
   const State rest = state_at_rest(first.model);
   ContactDetector detector(assembly, detection_options(scene));
-  first.contacts = analysis.type == AnalysisType::static_ ? contacts_at_rest(rest, assembly, &detector)
-                                                          : detector.update(rest.poses);
+  first.contacts = contacts_at_rest(first.model, &detector);
   const ContactMemories memories = match_memories({}, first.contacts.points);
   first.step =
       analysis_traits(analysis.type).steps_in_time

@@ -61,6 +61,12 @@ double default_duration(const Case& scene) {
   return last + Analysis().duration;
 }
 
+bool starts_static(const Case& scene) {
+  if (scene.analysis.start != Analysis::Start::automatic)
+    return scene.analysis.start == Analysis::Start::static_;
+  return scene.supports.base_motion || !std::holds_alternative<ConstantInTime>(scene.joints.friction_time);
+}
+
 std::vector<std::string> unused_times(const Case& scene) {
   const Analysis& analysis = scene.analysis;
   std::vector<std::string> out;

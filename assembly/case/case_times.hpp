@@ -21,6 +21,10 @@ std::vector<KeyedTime> times_of(const Case& scene);
 /// s, default of analysis.duration: long enough to come to rest after the last change.
 double default_duration(const Case& scene);
 
+/// True if a motion starts in static equilibrium: base motion, and friction that varies in time, act on a
+/// structure that already stands.
+bool starts_static(const Case& scene);
+
 /// Sentences on the functions of time and the motion of the ground that the analysis leaves out: all but
 /// motions and paths take their values at the time 0.
 std::vector<std::string> unused_times(const Case& scene);

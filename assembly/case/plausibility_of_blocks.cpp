@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/case_times.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/case/plausible_range.hpp"
 #include "assembly/model/applied_loads.hpp"
-#include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
 namespace {
@@ -72,43 +72,20 @@ std::vector<std::string> cuts_beside(const Postproc& postproc, const std::vector
   return out;
 }
 
-/// m: the largest distance by which a displacement opens or closes the joints of a fixed block.
-double opening_of_joints(const Assembly& assembly, int block, const Vec3& displacement) {
-  double largest = 0.0;
-  for (const Part& part : assembly.parts) {
-    if (part.block != block) continue;
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      const FaceKind kind = assembly.face_kinds[static_cast<size_t>(f)];
-      if (kind != FaceKind::bed && kind != FaceKind::head) continue;
-      largest = std::max(largest, std::abs(polygon_plane(face_points(assembly, f)).normal.dot(displacement)));
-    }
-  }
-  return largest;
-}
-
-/// Supports that stand so far from their places at the start that their joints are not found. A static
-/// analysis and a path find them however far they have moved.
-std::vector<std::string> lost_supports(const Case& scene, const Assembly& assembly) {
-  if (scene.analysis.type == AnalysisType::static_ || scene.analysis.type == AnalysisType::path) return {};
-  const double margin = joint_rule(smallest_block_size(assembly), scene.contact.margin).margin;
+/// Supports that have moved when a motion starts whose free blocks stand as built.
+std::vector<std::string> moved_supports(const Case& scene) {
+  if (scene.analysis.type != AnalysisType::dynamic || starts_static(scene)) return {};
   std::vector<std::string> out;
   for (size_t i = 0; i < scene.supports.moves.size(); ++i) {
     const SupportMove& move = scene.supports.moves[i];
-    const Vec3 displacement = factor_at(move.time, 0.0) * move.displacement;
-    const auto moves = [&](int block) {
-      return move.region.blocks.empty() || std::ranges::any_of(move.region.blocks, [&](const BlockRef& one) {
-               return one.number == block;
-             });
-    };
-    double opening = 0.0;
-    for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
-      if (assembly.blocks[static_cast<size_t>(b)].fixed && moves(b))
-        opening = std::max(opening, opening_of_joints(assembly, b, displacement));
-    if (opening > margin)
+    const bool moves = move.displacement.norm() + move.rotation_deg.norm() + std::abs(move.outward) +
+                           std::abs(move.tilt_deg) >
+                       0.0;
+    if (moves && factor_at(move.time, 0.0) != 0.0)
       out.push_back(fmt::format(
-          "supports.moves[{}]: opens a joint by {:.3g} m at the start, and joints are found up to {:.3g} m; "
-          "set contact.margin above it, or give the move a `time` that begins at 0 and use type: path",
-          i, opening, margin));
+          "supports.moves[{}]: has moved at the start, where the other blocks stand as built; give it a "
+          "`time` that begins at 0, or set analysis.start: static",
+          i));
   }
   return out;
 }
@@ -183,8 +160,7 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
   for (std::string& text : cuts_beside(scene.postproc, points, extent)) out.push_back(std::move(text));
   for (std::string& text : idle_fill(scene.loads, assembly, weight)) out.push_back(std::move(text));
   for (std::string& text : spread_beside(scene.loads, assembly)) out.push_back(std::move(text));
-  if (!varies(LimitSearch::Parameter::spread))
-    for (std::string& text : lost_supports(scene, assembly)) out.push_back(std::move(text));
+  for (std::string& text : moved_supports(scene)) out.push_back(std::move(text));
   return out;
 }
 

@@ -16,9 +16,9 @@ std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
                                 const std::vector<PointForce>& loads) {
   CUPOLA_ASSERT(frame.blocks.position.size() == assembly.blocks.size());
   std::vector<Mat3> stress(assembly.blocks.size(), Mat3::Zero());
-  const BlockTable& blocks = frame.blocks;
-  const std::vector<Vec3>& centroid =
-      blocks.contact_position.empty() ? blocks.position : blocks.contact_position;
+  std::vector<Vec3> centroid = frame.blocks.contact_position;
+  if (centroid.empty())
+    for (const Block& block : assembly.blocks) centroid.push_back(block.centroid);
   const ContactTable& c = frame.contacts;
   for (int i = 0; i < c.size(); ++i) {
     stress[c.block_b[i]] += (c.point[i] - centroid[c.block_b[i]]) * c.force[i].transpose();

@@ -88,8 +88,8 @@ Probe LimitRun::probe(const Case& changed, std::shared_ptr<const Assembly> block
   probe.model = make_model(changed, *probe.assembly);
   probe.start = state_at_rest(probe.model);
   ContactDetector detector(*probe.assembly, detection_options(scene));
-  probe.contacts = detector.update(probe.start.poses);
-  probe.memories = memories_at_rest(probe.model, probe.start, probe.contacts.points);
+  probe.contacts = contacts_at_rest(probe.model, &detector);
+  probe.memories = match_memories({}, probe.contacts.points);
   probe.solution = solve_static(probe.model, probe.start, probe.contacts, probe.memories, options);
   // Neither forces that balance the loads to a tolerance decide a limit, nor a motion without proof that
   // forces of less than kImmense times the loads might prevent. Coulomb's law has no proof of a motion that

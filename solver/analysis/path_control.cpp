@@ -25,12 +25,13 @@ struct LargestOfBlocks {
 /// Displacements of supports, m.
 LargestOfBlocks largest_support_motion(const Model& model, double end) {
   LargestOfBlocks largest;
-  const std::vector<Pose> start = state_at_rest(model).poses;
-  std::vector<Pose> poses = start;
+  State start = state_at_rest(model);
+  move_supports(model, &start);
+  std::vector<Pose> poses = start.poses;
   for (int k = 1; k <= kTimes; ++k) {
     place_supports(*model.assembly, model.support_motions, end * k / kTimes, &poses);
     for (const SupportMotion& motion : model.support_motions)
-      largest.include(motion.block, poses[motion.block].p_WB - start[motion.block].p_WB);
+      largest.include(motion.block, poses[motion.block].p_WB - start.poses[motion.block].p_WB);
   }
   return largest;
 }

@@ -90,8 +90,9 @@ struct ChosenState {
 
 ChosenState chosen_state(const Case& scene, const RigidScene& rigid, const AnalysisSinks& sinks) {
   ChosenState chosen;
-  chosen.contacts = ContactDetector(*rigid.assembly, detection_options(scene)).update(rigid.start.poses);
-  const ContactMemories memories = memories_at_rest(rigid.model, rigid.start, chosen.contacts.points);
+  ContactDetector detector(*rigid.assembly, detection_options(scene));
+  chosen.contacts = contacts_at_rest(rigid.model, &detector);
+  const ContactMemories memories = match_memories({}, chosen.contacts.points);
   StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;
   chosen.solution = solve_static(rigid.model, rigid.start, chosen.contacts, memories, options);

@@ -121,16 +121,17 @@ std::string undecided_warning(const DirectionLimits& limits) {
 }
 
 /// A note for the message if displacements are large, because equilibrium is found on the geometry as built.
-std::string linearity_note(const Assembly& assembly, double displacement) {
+std::string linearity_note(const Model& model, double displacement) {
   constexpr double kSmall = 0.1;  // of the smallest free block
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Block& block : assembly.blocks)
+  for (const Block& block : model.assembly->blocks)
     if (!block.fixed) smallest = std::min(smallest, std::cbrt(block.volume));
   if (displacement <= kSmall * smallest) return "";
   return fmt::format(
       "; the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m, but "
-      "forces are those of the geometry as built. Check `joints.compliance`",
-      displacement, smallest);
+      "forces are those of the geometry as built. {}",
+      displacement, smallest,
+      model.support_motions.empty() ? "Check `joints.compliance`" : "A `path` follows supports that move");
 }
 
 /// Solves with smaller and smaller tolerances until the certified error of every joint wrench is at most
@@ -170,12 +171,12 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   // The detector is destroyed at once: for a large model it is as large as the contact problem.
   const ContactSet contacts = [&] {
     ContactDetector detector(assembly, detection_options(scene));
-    contacts_at_rest(rest, assembly, &detector);
+    contacts_at_rest(model, &detector);
     return std::move(detector).take_contacts();
   }();
   sinks.as_built(contacts);
   release_freed_memory();
-  const ContactMemories memories = memories_at_rest(model, rest, contacts.points);
+  const ContactMemories memories = match_memories({}, contacts.points);
 
   StaticOptions options = static_options(scene.analysis);
   options.log = sinks.log;
@@ -207,7 +208,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
         "far it is from falling: cupola assess");
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += gaps_note(model, rest, contacts);
-  if (summary.max_displacement_m) summary.message += linearity_note(assembly, *summary.max_displacement_m);
+  if (summary.max_displacement_m) summary.message += linearity_note(model, *summary.max_displacement_m);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     const DirectionLimits limits = find_robustness(scene, assembly);
     summary.robustness = limits.least;

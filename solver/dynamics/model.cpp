@@ -51,39 +51,23 @@ State state_at_rest(const Model& model) {
   state.poses.resize(model.assembly->blocks.size());
   for (size_t block = 0; block < state.poses.size(); ++block)
     state.poses[block].p_WB = model.assembly->blocks[block].centroid;
-  place_supports(*model.assembly, model.support_motions, 0.0, &state.poses);
-  state.ground = model.ground.displacement(0.0);
   state.v = VecX::Zero(6 * model.num_free());
   return state;
 }
 
-const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector) {
+void move_supports(const Model& model, State* state) {
+  place_supports(*model.assembly, model.support_motions, state->time, &state->poses);
+  state->ground = model.ground.displacement(state->time);
+}
+
+const ContactSet& contacts_at_rest(const Model& model, ContactDetector* detector) {
+  const State rest = state_at_rest(model);
+  State moved = rest;
+  move_supports(model, &moved);
   std::vector<double> travel(rest.poses.size(), 0.0);
-  const std::vector<Pose> built = initial_poses(assembly);
   for (size_t b = 0; b < travel.size(); ++b)
-    travel[b] = motion_bound(built[b], rest.poses[b], detector->block_radius(static_cast<int>(b)));
+    travel[b] = motion_bound(rest.poses[b], moved.poses[b], detector->block_radius(static_cast<int>(b)));
   return detector->update(rest.poses, travel);
-}
-
-Vec3 relative_displacement(const Assembly& assembly, const State& state, const Contact& contact) {
-  const auto displacement = [&](int block, const Vec3& point) -> Vec3 {
-    const Pose& pose = state.poses[block];
-    return point - assembly.blocks[block].centroid - pose.q_WB.conjugate() * (point - pose.p_WB);
-  };
-  return displacement(contact.block_b, contact.point_b) - displacement(contact.block_a, contact.point_a);
-}
-
-ContactMemories memories_at_rest(const Model& model, const State& rest,
-                                 const std::vector<Contact>& contacts) {
-  ContactMemories memories = match_memories({}, contacts);
-  if (model.support_motions.empty()) return memories;
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& c = contacts[i];
-    const Vec3 moved = relative_displacement(*model.assembly, rest, c);
-    memories.stored()[i].elastic_slip_A =
-        rest.poses[c.block_a].q_WB.conjugate() * (moved - moved.dot(c.normal) * c.normal);
-  }
-  return memories;
 }
 
 std::vector<Vec3> displacements(const Assembly& assembly, const State& state) {
@@ -148,8 +132,7 @@ void integrate_positions(const Model& model, double h, double time_advance, cons
       pose.q_WB = (Eigen::Quaterniond(Eigen::AngleAxisd(angle, turn / angle)) * pose.q_WB).normalized();
   }
   state->time += time_advance;
-  place_supports(*model.assembly, model.support_motions, state->time, &state->poses);
-  state->ground = model.ground.displacement(state->time);
+  move_supports(model, state);
 }
 
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time) {

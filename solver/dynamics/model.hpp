@@ -55,19 +55,15 @@ struct State {
 /// h (s), which a block that rests on it has in this scheme.
 State seen_from_ground(const Model& model, const State& state, double h);
 
-/// Blocks at rest as generated, supports at their imposed positions at time 0.
+/// All blocks at rest as generated. The first static step moves the supports to where they are at its end.
 State state_at_rest(const Model& model);
 
-/// Contacts at rest. A joint that a moved support opens or closes is found however far it has moved, up to
-/// the size of a block.
-const ContactSet& contacts_at_rest(const State& rest, const Assembly& assembly, ContactDetector* detector);
+/// Moves the supports of a state to their imposed positions at its time.
+void move_supports(const Model& model, State* state);
 
-/// m, of the second side of a contact relative to the first, at its points, since the assembly was built.
-Vec3 relative_displacement(const Assembly& assembly, const State& state, const Contact& contact);
-
-/// Memories of these contacts: unloaded, but where a support has moved along a joint, it has stretched the
-/// tangential spring by as much. How far it has moved across the joint is in the gap.
-ContactMemories memories_at_rest(const Model& model, const State& rest, const std::vector<Contact>& contacts);
+/// Contacts at rest. A joint that a support opens or closes by time 0 is found however far it moves, up to the
+/// size of a block.
+const ContactSet& contacts_at_rest(const Model& model, ContactDetector* detector);
 
 /// m, of the centroids from the assembly as generated (num_blocks).
 std::vector<Vec3> displacements(const Assembly& assembly, const State& state);

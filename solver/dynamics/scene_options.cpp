@@ -4,16 +4,10 @@
 #include <utility>
 
 #include "assembly/base/error.hpp"
+#include "assembly/case/case_times.hpp"
 
 namespace cupola {
 namespace {
-
-/// Base motion and friction that varies in time act on a structure that already stands.
-bool starts_static(const Case& scene) {
-  if (scene.analysis.start != Analysis::Start::automatic)
-    return scene.analysis.start == Analysis::Start::static_;
-  return scene.supports.base_motion || !std::holds_alternative<ConstantInTime>(scene.joints.friction_time);
-}
 
 void require_second_order(const Case& scene, const Model& model) {
   const auto refuse = [](const std::string& what) {

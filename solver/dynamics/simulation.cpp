@@ -48,6 +48,7 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
       state_(state_at_rest(model_)),
       detector_(*model_.assembly, options.detection),
       next_h_(options.step.h) {
+  move_supports(model_, &state_);
   memories_.ties.resize(model_.ties.size());
   energy_ = energy();
   for (const int block : model_.free_blocks) radius_.push_back(detector_.block_radius(block));
@@ -182,7 +183,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
 void Simulation::start_from(const LoadedState& loaded) {
   CUPOLA_ASSERT(loaded.h > 0.0 && loaded.state.poses.size() == state_.poses.size());
   // Contacts must get the identities that they had in the static solve.
-  detector_.update(state_at_rest(model_).poses);
+  contacts_at_rest(model_, &detector_);
   state_ = loaded.state;
   const ContactSet& contacts = detector_.update(state_.poses);
   memories_ = match_memories(loaded.memories, contacts.points);
@@ -199,8 +200,9 @@ void Simulation::start_from(const LoadedState& loaded) {
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     ContactMemory& memory = memories_.stored()[i];
     const Contact& contact = contacts.points[i];
-    continue_from_rest(contact_frame(contact.normal) * (memory.impulse / loaded.h),
-                       state_.poses[contact.block_a], &memory);
+    const Vec3 impulse = in_present_frame(memory, contact, state_);
+    continue_from_rest(contact_frame(contact.normal) * (impulse / loaded.h), state_.poses[contact.block_a],
+                       &memory);
     memory.impulse = memory.impulse / loaded.h * next_h_;
   }
   for (TieMemory& tie : memories_.ties) tie.impulse = tie.impulse / loaded.h * next_h_;

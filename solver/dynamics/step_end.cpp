@@ -133,10 +133,6 @@ void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* me
   memory->loaded_steps = memory->impulse[0] > 0.0 ? kSmooth : 0;
 }
 
-namespace {
-
-/// The impulse of the last step in the present contact frame. contact_frame() changes its tangents where the
-/// normal passes a tie between world axes, by 60 degrees or more. At a level bed rounding is enough for that.
 Vec3 in_present_frame(const ContactMemory& memory, const Contact& contact, const State& state) {
   constexpr double kSameTangent = 0.75;  // cos; blocks turn by far less in a step
   const Vec3 tangent_W = state.poses[contact.block_a].q_WB * memory.tangent_A;
@@ -146,8 +142,6 @@ Vec3 in_present_frame(const ContactMemory& memory, const Contact& contact, const
   const Vec3& old = memory.impulse;
   return {old[0], old[1] * t[0] - old[2] * t[1], old[1] * t[1] + old[2] * t[0]};
 }
-
-}  // namespace
 
 ContactSolution warm_start(const StepProblem& step, const State& state, const ContactSet& contacts,
                            const ContactMemories& memories) {

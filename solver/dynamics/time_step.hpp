@@ -114,6 +114,10 @@ double plastic_elongation(const StepProblem& step, int row, const ContactSolutio
 /// at rest.
 void continue_from_rest(const Vec3& force, const Pose& pose_a, ContactMemory* memory);
 
+/// The impulse of the last step in the present contact frame. contact_frame() changes its tangents where the
+/// normal passes a tie between world axes, by 60 degrees or more. At a level bed rounding is enough for that.
+Vec3 in_present_frame(const ContactMemory& memory, const Contact& contact, const State& state);
+
 /// Warm start of the solve: velocities at the start of the step and impulses of the last step.
 ContactSolution warm_start(const StepProblem& step, const State& state, const ContactSet& contacts,
                            const ContactMemories& memories);

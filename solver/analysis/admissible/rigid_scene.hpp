@@ -10,8 +10,8 @@
 
 namespace cupola {
 
-/// The assembly as built, as rigid blocks with joints that only press and rub: what an admissible state of
-/// forces has to satisfy. Compliance does not enter.
+/// The assembly as built, before supports move, as rigid blocks with joints that only press and rub: what an
+/// admissible state of forces has to satisfy. Compliance does not enter.
 struct RigidScene {
   std::shared_ptr<const Assembly> assembly;
   Model model;

@@ -181,16 +181,20 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   return frame;
 }
 
-void set_contact_poses(const Model& model, const State& found, Frame* frame) {
-  for (const Pose& pose : found.poses) {
-    frame->blocks.contact_position.push_back(pose.p_WB);
-    frame->blocks.contact_quaternion_wxyz.push_back(wxyz(pose));
-  }
+void set_tie_ends(const Model& model, const State& found, Frame* frame) {
   for (size_t k = 0; k < model.ties.size(); ++k) {
     const TieGeometry then = tie_geometry(model.ties[k], found.poses, found.ground);
     frame->ties.point_a[k] = then.point_a;
     frame->ties.point_b[k] = then.point_b;
   }
+}
+
+void set_contact_poses(const Model& model, const State& found, Frame* frame) {
+  for (const Pose& pose : found.poses) {
+    frame->blocks.contact_position.push_back(pose.p_WB);
+    frame->blocks.contact_quaternion_wxyz.push_back(wxyz(pose));
+  }
+  set_tie_ends(model, found, frame);
 }
 
 void set_contact_poses_if_moved(const Model& model, const State& found, Frame* frame) {

@@ -47,8 +47,9 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
                  const JointForces& forces, const std::vector<double>& violations,
                  const ContactMemories& memories, const std::vector<Vec3>& displacement);
 
-/// Records where the blocks stood in `found`, at whose poses the contacts of a frame were found, and where its
-/// ties pulled there.
+/// Records where the ties of a frame pulled in `found`, at whose poses its contacts were found.
+void set_tie_ends(const Model& model, const State& found, Frame* frame);
+/// The same, and where the blocks stood there.
 void set_contact_poses(const Model& model, const State& found, Frame* frame);
 /// The same unless the blocks stood there as built, which is what a frame without these poses means.
 void set_contact_poses_if_moved(const Model& model, const State& found, Frame* frame);

@@ -31,7 +31,7 @@ EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& det
     : model_(model), options_(options), geometry_(geometry), detector_(*model.assembly, detection) {
   loaded_.state = state_at_rest(model_);
   ContactDetector as_built(*model.assembly, detection);
-  contacts_at_rest(loaded_.state, *model.assembly, &as_built);
+  contacts_at_rest(model_, &as_built);
   built_ = as_built.memory().contacts;
 }
 
@@ -98,11 +98,10 @@ bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
 /// The scene of the next static solve: contacts at `from` and what the joints remember.
 void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
   start_ = from.state;
-  contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(start_, *model_.assembly, &detector_)
-                                              : detector_.update(start_.poses);
+  contacts_ =
+      detector_.num_detections() == 0 ? contacts_at_rest(model_, &detector_) : detector_.update(start_.poses);
   if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
-  memories_ = from.memories.as_built ? memories_at_rest(model_, start_, contacts_.points)
-                                     : match_memories(from.memories, contacts_.points);
+  memories_ = match_memories(from.memories, contacts_.points);
   options_.time_advance = time_advance;
 }
 

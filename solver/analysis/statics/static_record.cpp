@@ -33,6 +33,15 @@ Accuracy force_balance_accuracy(const StaticSolution& solution, double tolerance
           reached};
 }
 
+/// m, of the second side of a contact relative to the first, at its points, since the assembly was built.
+Vec3 relative_displacement(const Assembly& assembly, const State& state, const Contact& contact) {
+  const auto displacement = [&](int block, const Vec3& point) -> Vec3 {
+    const Pose& pose = state.poses[block];
+    return point - assembly.blocks[block].centroid - pose.q_WB.conjugate() * (point - pose.p_WB);
+  };
+  return displacement(contact.block_b, contact.point_b) - displacement(contact.block_a, contact.point_a);
+}
+
 }  // namespace
 
 Status status_of(StaticOutcome outcome, bool proven) {
@@ -72,11 +81,12 @@ std::string gaps_note(const Model& model, const State& start, const ContactSet& 
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,
                    const ContactMemories& memories, const StaticSolution& solution,
                    const StaticOptions& options) {
-  // A motion has directions but no amplitude, and of an unconverged solve nothing is known: the blocks stay
-  // where they started.
+  // A motion has directions but no amplitude, and of an unconverged solve nothing is known: the free blocks
+  // stay where they started.
   const bool equilibrium = solution.outcome == StaticOutcome::equilibrium;
   LoadedState loaded = equilibrium ? loaded_state(model, start, contacts, memories, solution, options)
                                    : LoadedState{start, memories, solution.h};
+  if (!equilibrium) move_supports(model, &loaded.state);
   const double speed = largest_speed(solution.step_solution.v);
   if (solution.outcome == StaticOutcome::moving && speed > 0.0)
     loaded.state.v = solution.step_solution.v / speed;
@@ -86,6 +96,7 @@ Frame static_frame(const Model& model, const State& start, const ContactSet& con
   Frame frame =
       make_frame(model, loaded.state, contacts, solution.forces,
                  static_violations(contacts, solution, options.solve.law), loaded.memories, displacement);
+  set_tie_ends(model, start, &frame);
   set_role(role_of(solution.outcome), "", &frame);
   if (!equilibrium) return frame;
   const VecX u =

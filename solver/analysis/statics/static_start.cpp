@@ -9,8 +9,9 @@ StaticStart start_from_equilibrium(const Case& scene, const std::function<void(c
   const Model& model = simulation->model();
   StaticStart start;
   start.rest = state_at_rest(model);
-  start.contacts = ContactDetector(*model.assembly, simulation->options().detection).update(start.rest.poses);
-  start.memories = memories_at_rest(model, start.rest, start.contacts.points);
+  ContactDetector detector(*model.assembly, simulation->options().detection);
+  start.contacts = contacts_at_rest(model, &detector);
+  start.memories = match_memories({}, start.contacts.points);
   start.options = start_options(scene.analysis);
   start.options.log = log;
   start.solution = solve_static(model, start.rest, start.contacts, start.memories, start.options);

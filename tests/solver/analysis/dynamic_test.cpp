@@ -236,6 +236,19 @@ TEST(AdaptiveStep, SeesShortLoads) {
       << "5 mm each of the blow and of the last step";
 }
 
+// A static start finds the joints as built, and the block follows its floor, which has moved by more than the
+// margin within which faces make a joint.
+TEST(StaticStart, FollowsSupportsThatHaveMoved) {
+  Case scene = make_case(0.5, 1e-8, 0.01);
+  scene.analysis.start = Analysis::Start::static_;
+  scene.analysis.duration = 0.1;
+  scene.supports.moves = {{.region = {}, .displacement = {0.3, 0, -0.05}, .time = {}}};
+  const RunResult result = run(scene, testing::box_on_floor({1, 1, 1}));
+  EXPECT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  EXPECT_LT((result.last.blocks.displacement[1] - Vec3(0.3, 0, -0.05)).norm(), 1e-4)
+      << "the joint yields by W c / 4 = 2.5e-5 m";
+}
+
 TEST(FixedSteps, CoverTheDurationAndTheTimesOfFrames) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   const auto frame_times = [&](double h) {

@@ -68,6 +68,21 @@ TEST(LimitOfCase, ASpreadByNegativeFactorsIsThatOfTheOppositeMotion) {
   expect(scene, lintel, Status::stable, "the structure stands up to the end of the bracket, -0.6");
 }
 
+// Limits hold for the geometry as built: a block slides at 0.3 g wherever its floor has moved, farther than
+// the margin within which faces make a joint, or from under half of the block.
+TEST(LimitOfCase, DoesNotDependOnMotionsOfSupports) {
+  for (const auto method : {LimitSearch::Method::direct, LimitSearch::Method::bisection}) {
+    Case scene = limit_case(Parameter::acceleration, 0.0, 1.0, 0.3);
+    scene.analysis.limit.method = method;
+    for (const Vec3& moved : {Vec3(0, 0, -0.02), Vec3(0, 0, 0.02), Vec3(10, 0, 0)}) {
+      scene.supports.moves = {{.region = {}, .displacement = moved, .time = {}}};
+      const Summary summary = run_limit(scene, block(), {}).value();
+      ASSERT_TRUE(summary.critical) << moved.transpose() << ": " << summary.message;
+      EXPECT_NEAR(0.5 * (summary.critical->stable + summary.critical->moving), 0.3, 1e-3) << "the bracket";
+    }
+  }
+}
+
 // The loads are not linear in the angle where a force stays as it is: in between it could move.
 TEST(LimitOfCase, ATiltBesideAForceIsNoInterval) {
   expect(pushed(limit_case(Parameter::tilt, 0.0, 1.0, 0.3)), block(), Status::stable,

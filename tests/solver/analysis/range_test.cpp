@@ -78,6 +78,21 @@ TEST(Range, LegOfATable) {
   }
 }
 
+// Ends of ranges hold for the geometry as built: a leg that has sunk leaves them, and the table stands on the
+// others. Robustness is as it was, too.
+TEST(Range, DoesNotDependOnMotionsOfSupports) {
+  const Assembly slab = table(1.5, 0.2);
+  const double inner = 1.4, outer = 1.6, weight = weight_of(slab);
+  Case scene = range_case(0.5, {BlockReaction{0, BlockReaction::Component::vertical, {}}});
+  scene.supports.moves = {{.region = {.blocks = {BlockRef{0}}}, .displacement = {0.3, 0, -0.1}, .time = {}}};
+  expect_ends(range_of(scene, slab), 0.0, weight * outer / (inner + outer), weight);
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.robustness = 4;
+  const Summary summary = run_static(scene, slab, {});
+  ASSERT_TRUE(summary.robustness) << summary.message;
+  EXPECT_NEAR(summary.robustness->acceleration_g, 0.5, 1e-4) << "a flat slab slides";
+}
+
 // In the state that loads one leg most the legs beside it carry nothing, which proves their least forces
 // without a solve: four solves instead of eight. With `states` each end has its own.
 TEST(Range, LeastForcesAreProvenByTheStatesOfOtherEnds) {

@@ -171,6 +171,29 @@ TEST(GeneralizedAlpha, AdaptsItsStepsToAnErrorOfThirdOrder) {
   EXPECT_NEAR(steps[1] / steps[0], 2.0, 0.3);
 }
 
+// A static start keeps the shear of a level bed, whose contact frame rounding turns by 60 degrees: at rest,
+// the reaction of the first steps is that of statics, to 1e-6 of the weight.
+TEST(GeneralizedAlpha, StaysInStaticEquilibriumUnderAPush) {
+  for (const TimeIntegrator integrator : {TimeIntegrator::euler, TimeIntegrator::generalized_alpha})
+    for (const double size : {1.0, 0.9, 0.7}) {
+      const Assembly assembly = testing::box_on_floor({size, size, size});
+      const double weight = assembly.blocks[1].mass * kG;
+      Case scene = make_case(0.7, 1e-8, 0.01);
+      scene.analysis.integrator = integrator;
+      scene.loads.forces.resize(1);
+      scene.loads.forces[0].block.number = 1;
+      scene.loads.forces[0].force = {0.17 * weight, 0, 0};
+      testing::AccountedSimulation simulation(scene, assembly);
+      start_from_equilibrium(
+          scene, [](const std::string&) {}, &simulation);
+      for (int step = 0; step < 3; ++step) {
+        Vec3 reaction = Vec3::Zero();
+        for (const Vec3& force : simulation.advance().forces.contacts) reaction += force;
+        EXPECT_LT((reaction - Vec3(-0.17 * weight, 0, weight)).norm(), 1e-6 * weight) << size << ", " << step;
+      }
+    }
+}
+
 TEST(GeneralizedAlpha, RefusesWhatItDoesNotIntegrate) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   Case scene = second_order(make_case(0.4, 1e-8, 0.01));
