@@ -17,7 +17,7 @@
 namespace cupola {
 namespace {
 
-/// m
+/// m, of any vertex: coordinates are rounded in proportion to it.
 double largest_coordinate(const Assembly& assembly) {
   double largest = 0.0;
   for (const Vec3& v : assembly.vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());

@@ -19,7 +19,7 @@ struct Pose {
 /// Identifies a contact point across steps by the features of two parts and the corner of their overlap.
 struct ContactId {
   int part_a = -1, part_b = -1;
-  int face_a = -1, face_b = -1;  ///< face of the assembly; -1 for an edge or vertex feature
+  int face_a = -1, face_b = -1;  ///< CollisionFace::id; -1 for an edge or vertex feature
   int corner = 0;                ///< index of the point within the patch
   auto operator<=>(const ContactId&) const = default;
 };

@@ -39,7 +39,7 @@ struct LiftedPoint {
 /// between them, or the contact points of an edge or a vertex. Coordinates in m, axes of block a.
 struct JointPatch {
   int part_a = 0, part_b = 0;
-  int face_a = -1, face_b = -1;  ///< faces of the assembly; -1 for an edge or a vertex
+  int face_a = -1, face_b = -1;  ///< CollisionFace::id; -1 for an edge or a vertex
   JointKind kind = JointKind::other;
   int ring = 0;                 ///< course of the upper part, 0 at the base
   Vec3 origin = Vec3::Zero();   ///< of the coordinates in the plane
