@@ -111,15 +111,7 @@ KeyNumber least_answer(const Evaluation& e) {
 
 /// What the structure bears at the last equilibrium of a path that ends early.
 KeyNumber end_of_path(const Evaluation& e) {
-  const double weight = e.summary.weight_N;
-  Vec3 pull = weight * e.last.gravity.normalized();
-  for (const PointForce& load : e.last.loads) pull += load.force;
-  const double aside = (pull - pull.dot(e.up) * e.up).norm();
   std::vector<std::string> borne;
-  constexpr double kRounding = 1e-9;  // of the weight
-  if (aside > kRounding * weight)
-    borne.push_back(
-        fmt::format("horizontal loads of {}, {:.3g} of the weight", force_text(aside), aside / weight));
   if (const std::string loads = loads_text(e); !loads.empty()) borne.push_back(loads);
   if (const std::string moved = moved_text(e); !moved.empty()) borne.push_back(moved);
   return {"End of the path", fmt::format("{:.4g} s of {:.4g}", e.last.frame.time, e.scene.analysis.path.end),

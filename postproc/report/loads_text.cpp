@@ -23,6 +23,38 @@ LoadGroup group_of(const Loads& loads, int time) {
   return loads.faces[number - loads.forces.size()].fill ? LoadGroup::fill : LoadGroup::on_faces;
 }
 
+constexpr double kRoundingOfSums = 1e-9;  // of the weight: forces that balance each other
+
+/// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all": what acts downwards, and its sum with the weight.
+std::string vertical_loads(const Evaluation& e) {
+  std::array<double, kGroupNames.size()> down{};
+  for (const PointForce& load : e.last.loads)
+    down[static_cast<size_t>(group_of(e.acting, load.time))] -= load.force.dot(e.up);
+  double total = acting_weight(e);
+  std::vector<std::string> parts;
+  for (size_t i = 0; i < down.size(); ++i) {
+    if (std::abs(down[i]) <= kRoundingOfSums * e.summary.weight_N) continue;
+    total += down[i];
+    parts.push_back(fmt::format("{} of {}", kGroupNames[i], force_text(down[i])));
+  }
+  if (parts.empty()) return "";
+  const std::string last = parts.back();
+  parts.pop_back();
+  return fmt::format("{}{}{}, {} in all", fmt::join(parts, ", "), parts.empty() ? "" : " and ", last,
+                     force_text(total));
+}
+
+/// "horizontal loads of 1 kN, 0.1 of the weight": the sum of the loads, and of the weight in a tilted model.
+std::string horizontal_loads(const Evaluation& e) {
+  const double weight = e.summary.weight_N;
+  Vec3 pull = acting_weight(e) * e.last.gravity.normalized();
+  for (const PointForce& load : e.last.loads) pull += load.force;
+  const double aside = (pull - pull.dot(e.up) * e.up).norm();
+  return aside > kRoundingOfSums * weight
+             ? fmt::format("horizontal loads of {}, {:.3g} of the weight", force_text(aside), aside / weight)
+             : "";
+}
+
 }  // namespace
 
 double acting_weight(const Evaluation& e) {
@@ -36,22 +68,8 @@ std::string weight_text(const Evaluation& e) {
 }
 
 std::string loads_text(const Evaluation& e) {
-  constexpr double kRounding = 1e-9;  // of the weight: forces that balance each other
-  std::array<double, kGroupNames.size()> down{};
-  for (const PointForce& load : e.last.loads)
-    down[static_cast<size_t>(group_of(e.acting, load.time))] -= load.force.dot(e.up);
-  double total = acting_weight(e);
-  std::vector<std::string> parts;
-  for (size_t i = 0; i < down.size(); ++i) {
-    if (std::abs(down[i]) <= kRounding * e.summary.weight_N) continue;
-    total += down[i];
-    parts.push_back(fmt::format("{} of {}", kGroupNames[i], force_text(down[i])));
-  }
-  if (parts.empty()) return "";
-  const std::string last = parts.back();
-  parts.pop_back();
-  return fmt::format("{}{}{}, {} in all", fmt::join(parts, ", "), parts.empty() ? "" : " and ", last,
-                     force_text(total));
+  const std::string vertical = vertical_loads(e), horizontal = horizontal_loads(e);
+  return vertical + (vertical.empty() || horizontal.empty() ? "" : "; ") + horizontal;
 }
 
 std::string direction_of_limit(const LimitSearch& limit) {

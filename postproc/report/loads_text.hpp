@@ -12,8 +12,9 @@ double acting_weight(const Evaluation& evaluation);
 /// "110 kN", or "64 kN of 110 kN" where `loads.dead_load_time` lets a part act.
 std::string weight_text(const Evaluation& evaluation);
 
-/// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all": what acts downwards besides the weight of the free
-/// blocks, at the time shown, and the sum with it; "" if nothing does.
+/// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all; horizontal loads of 42 kN, 0.014 of the weight":
+/// what acts besides the weight of the free blocks at the time shown, the sum of the first with it; "" if
+/// nothing does.
 std::string loads_text(const Evaluation& evaluation);
 
 /// "pulled towards +x; other directions are not computed": of the limit of a tilt or an acceleration; else "".

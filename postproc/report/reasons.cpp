@@ -49,7 +49,9 @@ std::string moved_text(const Evaluation& e) {
   const char* up_to = several ? "up to " : "";
   std::vector<std::string> how;
   if (farthest > 0.0) how.push_back(fmt::format("moved by {}{}", up_to, length_text(farthest)));
-  if (turn > 0.0) how.push_back(fmt::format("turned by {}{:.3g} degrees", up_to, turn * kDegrees));
+  const std::string degrees = fmt::format("{:.3g}", turn * kDegrees);
+  if (turn > 0.0)
+    how.push_back(fmt::format("turned by {}{} degree{}", up_to, degrees, degrees == "1" ? "" : "s"));
   const std::string& name = e.assembly.blocks[moved.front()].name;
   return fmt::format("{} {}",
                      several        ? counted(moved.size(), "support") + " have"

@@ -369,6 +369,12 @@ TEST(FirstScreen, NamesTheLoadsBesideTheWeight) {
   e.last.loads.push_back({2, Vec3::Zero(), Vec3(0, 0, -4e3), PointForce::kDeadLoad});
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 56 kN in all");
   EXPECT_EQ(weight_text(e), "40 kN");
+  e.last.loads.push_back({1, Vec3::Zero(), Vec3(0, -2e3, 0), 0});  // wind
+  EXPECT_EQ(
+      loads_text(e),
+      "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 56 kN in all; horizontal loads of 2 kN, 0.05 of "
+      "the weight");
+  e.last.loads.pop_back();
   e.last.gravity *= 0.25;  // as `dead_load_time` has it at that time
   EXPECT_EQ(weight_text(e), "10 kN of 40 kN");
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 26 kN in all");
