@@ -25,12 +25,19 @@ LoadGroup group_of(const Loads& loads, int time) {
 
 constexpr double kRoundingOfSums = 1e-9;  // of the weight: forces that balance each other
 
+/// N: the weight of the free blocks as it pulls at the time shown, inclined in a tilted model, with the
+/// accelerations of a limit.
+Vec3 pull_of_weight(const Evaluation& e) {
+  const double g = e.scene.loads.gravity.norm();
+  return g > 0.0 ? Vec3(e.summary.weight_N / g * e.last.gravity) : Vec3(Vec3::Zero());
+}
+
 /// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all": what acts downwards, and its sum with the weight.
 std::string vertical_loads(const Evaluation& e) {
   std::array<double, kGroupNames.size()> down{};
   for (const PointForce& load : e.last.loads)
     down[static_cast<size_t>(group_of(e.acting, load.time))] -= load.force.dot(e.up);
-  double total = acting_weight(e);
+  double total = -pull_of_weight(e).dot(e.up);
   std::vector<std::string> parts;
   for (size_t i = 0; i < down.size(); ++i) {
     if (std::abs(down[i]) <= kRoundingOfSums * e.summary.weight_N) continue;
@@ -47,7 +54,7 @@ std::string vertical_loads(const Evaluation& e) {
 /// "horizontal loads of 1 kN, 0.1 of the weight": the sum of the loads, and of the weight in a tilted model.
 std::string horizontal_loads(const Evaluation& e) {
   const double weight = e.summary.weight_N;
-  Vec3 pull = acting_weight(e) * e.last.gravity.normalized();
+  Vec3 pull = pull_of_weight(e);
   for (const PointForce& load : e.last.loads) pull += load.force;
   const double aside = (pull - pull.dot(e.up) * e.up).norm();
   return aside > kRoundingOfSums * weight
@@ -57,13 +64,9 @@ std::string horizontal_loads(const Evaluation& e) {
 
 }  // namespace
 
-double acting_weight(const Evaluation& e) {
-  const double full = e.acting.gravity.norm();
-  return full > 0.0 ? e.summary.weight_N * e.last.gravity.norm() / full : e.summary.weight_N;
-}
-
 std::string weight_text(const Evaluation& e) {
-  const double acting = acting_weight(e), full = e.summary.weight_N;
+  const double of_case = e.acting.gravity.norm(), full = e.summary.weight_N;
+  const double acting = of_case > 0.0 ? full * e.last.gravity.norm() / of_case : full;
   return force_text(acting) + (alike(acting, full) ? "" : " of " + force_text(full));
 }
 

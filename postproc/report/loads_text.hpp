@@ -6,9 +6,6 @@
 
 namespace cupola {
 
-/// N, of the free blocks, as it acts at the time shown.
-double acting_weight(const Evaluation& evaluation);
-
 /// "110 kN", or "64 kN of 110 kN" where `loads.dead_load_time` lets a part act.
 std::string weight_text(const Evaluation& evaluation);
 

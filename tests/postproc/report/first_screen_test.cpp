@@ -380,6 +380,19 @@ TEST(FirstScreen, NamesTheLoadsBesideTheWeight) {
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, fill of 9 kN and forces of 3 kN, 26 kN in all");
 }
 
+// The limits of an acceleration and of a tilt to 3:4 pull 40 kN: to the side, and of a tilt less downwards.
+TEST(FirstScreen, WeightPullsToTheSideInLimitsOfTiltAndAcceleration) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  const double g = e.scene.loads.gravity.norm();
+  e.acting.forces.resize(1);
+  e.summary.weight_N = 40e3;
+  e.last.loads = {{1, Vec3::Zero(), Vec3(0, 0, -4e3), PointForce::kDeadLoad}};
+  e.last.gravity = g * Vec3(0.5, 0, -1);
+  EXPECT_EQ(loads_text(e), "load on top of 4 kN, 44 kN in all; horizontal loads of 20 kN, 0.5 of the weight");
+  e.last.gravity = g * Vec3(0, 0.6, -0.8);
+  EXPECT_EQ(loads_text(e), "load on top of 4 kN, 36 kN in all; horizontal loads of 24 kN, 0.6 of the weight");
+}
+
 TEST(FirstScreen, ARangeAnalysisGivesTheRangeInPlaceOfTheChosenThrust) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   ForceRange range{.quantity = "thrust", .unit = "N", .min = {}, .max = {}, .chosen = 2e7};
