@@ -171,7 +171,9 @@ StaticSolution EquilibriumPath::correct(StaticSolution solution) {
     const int iterations = solution.iterations;
     solution = solve_from(LoadedState(loaded_), 0.0);
     solution.iterations += iterations;
-    if (solution.outcome != StaticOutcome::equilibrium) break;
+    if (solution.outcome == StaticOutcome::equilibrium) continue;
+    solution.message = "in the geometry at the end of the step: " + solution.message;
+    break;
   }
   return solution;
 }

@@ -53,6 +53,24 @@ TEST(ElasticSupports, TurnAFootingThatLiftsOffAlongAPath) {
   EXPECT_NEAR(path.rows[1][1], 0.5 * kZ * whole, 1e-3 * whole) << "the whole base is pressed";
 }
 
+// A tower on soft soil balances its push as built, e = 0.3 b; leaning by a third it stands beside its base.
+TEST(ElasticSupports, SayWhereATowerFallsThatStandsAsBuilt) {
+  const Assembly tower = testing::box_on_floor({kB, kL, 10.0 * kZ});
+  const double push = 0.3 * kB * free_weight(tower, testing::kG) / kZ;
+  const double pressed = 0.6 * kB;
+  const double compliance = 0.33 * kL * pressed * pressed / (2.0 * free_weight(tower, testing::kG));
+  Case scene = on_soil(AnalysisType::static_, compliance, push, {});
+  EXPECT_EQ(run_static(scene, tower, {}).status, Status::stable);
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.path.steps = 1;
+  scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
+  const Summary path = path_test::run(scene, tower).summary;
+  EXPECT_EQ(path.status, Status::moving);
+  EXPECT_NE(path.message.find("moving at 0 s: in the geometry at the end of the step: no equilibrium"),
+            std::string::npos)
+      << path.message;
+}
+
 // Rigid bodies overturn at H = W b / (2 a), whatever the soil: a limit counts admissible forces only.
 TEST(ElasticSupports, DoNotChangeALimit) {
   const Assembly box = testing::box_on_floor({kB, kL, kZ});
