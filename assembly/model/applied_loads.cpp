@@ -19,9 +19,9 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Distributes a weight over the top faces by area, as forces along the unit vector `down` at the face
-/// centroids.
-void add_top_load(const Assembly& assembly, double weight, const Vec3& down, const char* key,
+/// Distributes a weight and its mass over the top faces by area, at the face centroids. The weight acts along
+/// the unit vector `down`.
+void add_top_load(const Assembly& assembly, double weight, double mass, const Vec3& down, const char* key,
                   std::vector<PointForce>* forces) {
   CUPOLA_ASSERT(std::abs(down.norm() - 1.0) < 1e-9);
   const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::top}, 0, kLastRing, "");
@@ -36,7 +36,10 @@ void add_top_load(const Assembly& assembly, double weight, const Vec3& down, con
   double total_area = 0.0;
   for (const LoadedFace& face : faces) total_area += face.area;
   for (const LoadedFace& face : faces)
-    forces->push_back({face.block, face.centroid, weight * face.area / total_area * down});
+    forces->push_back({.block = face.block,
+                       .point = face.centroid,
+                       .force = weight * face.area / total_area * down,
+                       .mass = mass * face.area / total_area});
 }
 
 /// How far a point lies outside the faces of a convex part, m; negative inside.
@@ -216,9 +219,10 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   const double weight = free_weight(assembly, g);
   const Vec3 down = g > 0.0 ? Vec3(loads.gravity / g) : Vec3(-Vec3::UnitZ());
   const auto add_top = [&](const std::optional<TopLoad>& load, const char* key) {
-    const double total =
-        load ? load->total(weight, g) : 0.0;  // negative in the derivative of a limit analysis
-    if (total != 0.0) add_top_load(assembly, total, down, key, &forces);
+    if (!load) return;
+    const double total = load->total(weight, g);  // negative in the derivative of a limit analysis
+    const double mass = g > 0.0 ? total / g : load->mass;
+    if (total != 0.0 || mass > 0.0) add_top_load(assembly, total, mass, down, key, &forces);
   };
   add_top(loads.lantern, "lantern");
   add_top(loads.top_load, "top_load");

@@ -15,6 +15,7 @@ struct PointForce {
   Vec3 force = Vec3::Zero();  ///< N, world
   int time = kDeadLoad;       ///< index into load_times()
   bool of_moment = false;     ///< one of the forces that stand for a moment on the block
+  double mass = 0.0;          ///< kg, at the point, of a lantern or top load
 };
 
 /// All loads of a case except the weight of the blocks: lantern and top load, distributed over the top faces

@@ -39,7 +39,7 @@ Energy compute_energy(const Model& model, const State& state, const ContactSet& 
   for (int i = 0; i < model.num_free(); ++i) {
     const int block = model.free_blocks[i];
     const Eigen::Matrix<double, 6, 1> v = state.v.segment<6>(6 * i);
-    energy.kinetic += 0.5 * v.dot(mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB) * v);
+    energy.kinetic += 0.5 * v.dot(mass_matrix(model.bodies[block], state.poses[block].q_WB) * v);
   }
   CUPOLA_ASSERT(memories.ids.size() == contacts.points.size());
   constexpr double kOperationsPerContact = 50.0;

@@ -131,7 +131,7 @@ void add_motion_work(const Model& model, const StepStart& start, const StepProbl
     const int block = model.free_blocks[i];
     const Mat6& M = step.problem.M[i];
     const auto turned = [&](const State& at, const VecX& v) {
-      const Mat6 now = mass_matrix(model.assembly->blocks[block], at.poses[block].q_WB);
+      const Mat6 now = mass_matrix(model.bodies[block], at.poses[block].q_WB);
       return 0.5 * v.segment<6>(6 * i).dot((now - M) * v.segment<6>(6 * i));
     };
     gained += mean.segment<6>(6 * i).dot(

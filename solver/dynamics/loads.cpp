@@ -9,7 +9,7 @@ LoadSet make_loads(const Loads& loads, const Assembly& assembly) {
   set.times = load_times(loads);
   for (const PointForce& load : applied_loads(loads, assembly))
     set.points.push_back(
-        {load.block, load.point - assembly.blocks[load.block].centroid, load.force, load.time});
+        {load.block, load.point - assembly.blocks[load.block].centroid, load.force, load.time, load.mass});
   return set;
 }
 

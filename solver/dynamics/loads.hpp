@@ -12,6 +12,7 @@ struct PointLoad {
   Vec3 p_BP_B = Vec3::Zero();        ///< m, from the centroid, axes of the block
   Vec3 force = Vec3::Zero();         ///< N, world, at factor 1
   int time = PointForce::kDeadLoad;  ///< index into LoadSet::times
+  double mass = 0.0;                 ///< kg, at the point, which motions accelerate
 };
 
 /// All applied loads with their variation in time.

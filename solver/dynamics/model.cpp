@@ -7,6 +7,30 @@
 #include "solver/dynamics/plane_scene.hpp"
 
 namespace cupola {
+namespace {
+
+/// a x b = cross_matrix(a) b
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 A;
+  A << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return A;
+}
+
+/// With the masses of point loads only where these move: a static step is as long as the blocks' own require.
+std::vector<BodyMass> bodies_of(const Assembly& assembly, const LoadSet& loads, bool moving) {
+  std::vector<BodyMass> bodies;
+  for (const Block& block : assembly.blocks) bodies.push_back({block.mass, Vec3::Zero(), block.inertia});
+  for (const PointLoad& load : loads.points) {
+    if (!moving || load.mass == 0.0) continue;
+    BodyMass& body = bodies[load.block];
+    body.mass += load.mass;
+    body.first_moment += load.mass * load.p_BP_B;
+    body.inertia -= load.mass * cross_matrix(load.p_BP_B) * cross_matrix(load.p_BP_B);
+  }
+  return bodies;
+}
+
+}  // namespace
 
 Model make_model(const Case& scene, const Assembly& assembly) {
   Model model;
@@ -16,6 +40,7 @@ Model make_model(const Case& scene, const Assembly& assembly) {
   model.joints = JointTable(scene.joints, num_rings);
   model.friction_time = scene.joints.friction_time;
   model.loads = make_loads(scene.loads, assembly);
+  model.bodies = bodies_of(assembly, model.loads, scene.analysis.type == AnalysisType::dynamic);
   model.ties = make_ties(scene, assembly);
   model.ties_yield =
       std::ranges::any_of(model.ties, [](const Tie& tie) { return std::isfinite(tie.yield_force); });
@@ -77,11 +102,11 @@ std::vector<Vec3> displacements(const Assembly& assembly, const State& state) {
   return displacement;
 }
 
-Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB) {
+Mat6 mass_matrix(const BodyMass& body, const Eigen::Quaterniond& q_WB) {
   const Mat3 R_WB = q_WB.toRotationMatrix();
-  Mat6 M = Mat6::Zero();
-  M.topLeftCorner<3, 3>() = block.mass * Mat3::Identity();
-  M.bottomRightCorner<3, 3>() = R_WB * block.inertia * R_WB.transpose();
+  const Mat3 moment = cross_matrix(R_WB * body.first_moment);
+  Mat6 M;
+  M << body.mass * Mat3::Identity(), -moment, moment, R_WB * body.inertia * R_WB.transpose();
   return M;
 }
 
@@ -93,8 +118,9 @@ VecX applied_forces(const Model& model, const State& state, double time) {
     const int block = model.free_blocks[i];
     const Vec3 omega = state.v.segment<3>(6 * i + 3);
     const Mat3 R_WB = state.poses[block].q_WB.toRotationMatrix();
-    const Mat3 I_W = R_WB * model.assembly->blocks[block].inertia * R_WB.transpose();
-    f.segment<3>(6 * i) = model.assembly->blocks[block].mass * gravity;
+    const Mat3 I_W = R_WB * model.bodies[block].inertia * R_WB.transpose();
+    f.segment<3>(6 * i) = model.assembly->blocks[block].mass * gravity -
+                          omega.cross(omega.cross(R_WB * model.bodies[block].first_moment));
     f.segment<3>(6 * i + 3) = -omega.cross(I_W * omega);
   }
   for (const PointLoad& load : model.loads.points) {
@@ -114,7 +140,9 @@ double reference_acceleration(const Model& model, const State& state) {
         (load.time == PointForce::kDeadLoad ? 1.0 : model.loads.factor(load, state.time)) * load.force;
   double acceleration = model.loads.gravity.norm();
   for (int block : model.free_blocks) {
-    const Vec3 per_mass = model.loads.gravity + force[block] / model.assembly->blocks[block].mass;
+    const double mass = model.bodies[block].mass;
+    const Vec3 per_mass =
+        model.assembly->blocks[block].mass / mass * model.loads.gravity + force[block] / mass;
     acceleration = std::max(acceleration, per_mass.norm());
   }
   return acceleration > 0.0 ? acceleration : 1.0;

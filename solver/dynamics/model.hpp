@@ -15,6 +15,13 @@
 
 namespace cupola {
 
+/// Inertia of a block and of what stands on it, about the centroid of the block, in its axes.
+struct BodyMass {
+  double mass = 0.0;                 ///< kg
+  Vec3 first_moment = Vec3::Zero();  ///< kg m: 0 of the block alone
+  Mat3 inertia = Mat3::Zero();       ///< kg m2
+};
+
 /// The time-independent description of a scene: masses, loads, joint laws, ties and imposed support motions.
 /// Fixed blocks have no unknowns.
 struct Model {
@@ -29,6 +36,7 @@ struct Model {
   HeatedBlocks heat;
   std::vector<int> free_index;   ///< block -> row block, or ContactProblem::kFixed (num_blocks)
   std::vector<int> free_blocks;  ///< row block -> block (nb)
+  std::vector<BodyMass> bodies;  ///< (num_blocks); lantern and top load count in motions only
   double free_weight = 0.0;      ///< N, total weight of the free blocks under full gravity
   double block_weight = 0.0;     ///< N, mean weight of the free blocks
   bool plane = false;            ///< motion in x-z only: unknowns x, z, rot y (see plane_scene.hpp)
@@ -68,11 +76,12 @@ const ContactSet& contacts_at_rest(const Model& model, ContactDetector* detector
 /// m, of the centroids from the assembly as generated (num_blocks).
 std::vector<Vec3> displacements(const Assembly& assembly, const State& state);
 
-/// Mass matrix of one block, with the inertia in world axes.
-Mat6 mass_matrix(const Block& block, const Eigen::Quaterniond& q_WB);
+/// Mass matrix of a block about its centroid, in world axes.
+Mat6 mass_matrix(const BodyMass& body, const Eigen::Quaterniond& q_WB);
 
-/// Applied forces and moments about the centroids (N, N m; 6 nb): gravity and loads at `time` (s), and the
-/// gyroscopic moment -omega x (I omega).
+/// Applied forces and moments about the centroids (N, N m; 6 nb): gravity and loads at `time` (s), the
+/// gyroscopic moment -omega x (I omega) and, with the first moment s of what stands on a block, the
+/// centrifugal force -omega x (omega x s).
 VecX applied_forces(const Model& model, const State& state, double time);
 
 /// Acceleration that scales the speeds in residuals, m/s2: the largest load per mass of a free block at full

@@ -219,14 +219,8 @@ std::vector<double> Simulation::travel(double h) const {
     const auto reached = [&](const Vec6& v) {
       return h * (v.head<3>().norm() + radius_[i] * v.tail<3>().norm());
     };
-    const Block& body = model_.assembly->blocks[block];
-    Vec6 gained = Vec6::Zero();
-    gained.head<3>() = h / body.mass * f.segment<3>(6 * i);
-    const Vec3 moment = f.segment<3>(6 * i + 3);
-    if (!moment.isZero(0.0)) {
-      const Mat3 inertia = mass_matrix(body, state_.poses[block].q_WB).bottomRightCorner<3, 3>();
-      gained.tail<3>() = h * inertia.llt().solve(moment);
-    }
+    const Mat6 M = mass_matrix(model_.bodies[block], state_.poses[block].q_WB);
+    const Vec6 gained = h * M.llt().solve(f.segment<6>(6 * i));
     distance[block] = reached(state_.v.segment<6>(6 * i)) + std::max(0.0, reached(gained) - allowed);
   }
   std::vector<Pose> moved = state_.poses;
@@ -239,8 +233,11 @@ std::vector<double> Simulation::travel(double h) const {
 
 Vec3 Simulation::linear_momentum() const {
   Vec3 momentum = Vec3::Zero();
-  for (int i = 0; i < model_.num_free(); ++i)
-    momentum += model_.assembly->blocks[model_.free_blocks[i]].mass * state_.v.segment<3>(6 * i);
+  for (int i = 0; i < model_.num_free(); ++i) {
+    const int block = model_.free_blocks[i];
+    const Mat6 M = mass_matrix(model_.bodies[block], state_.poses[block].q_WB);
+    momentum += M.topRows<3>() * state_.v.segment<6>(6 * i);
+  }
   return momentum;
 }
 

@@ -252,7 +252,7 @@ StepProblem build_step_problem(const Model& model, const State& state, const Con
   step.problem.M.resize(model.num_free());
   for (int i = 0; i < model.num_free(); ++i) {
     const int block = model.free_blocks[i];
-    step.problem.M[i] = mass_matrix(model.assembly->blocks[block], state.poses[block].q_WB);
+    step.problem.M[i] = mass_matrix(model.bodies[block], state.poses[block].q_WB);
   }
   set_rows(model, state, contacts, &step);
   if (model.plane) drop_rows_out_of_plane(&step.problem);

@@ -186,5 +186,36 @@ TEST(Painleve, FootJamsFromTheFrictionAtWhichNoSlidingSolutionExists) {
   }
 }
 
+/// Of a block that tumbles in free flight with a mass on its top, relative errors after 1 s: of its energy,
+/// and of the way of the common centroid, which goes straight on.
+Eigen::Vector2d tumbling_errors(double h) {
+  Assembly assembly = testing::make_boxes({{.center = {0, 0, 50}, .size = {1, 2, 3}}});
+  assembly.face_kinds[1] = FaceKind::top;
+  Case scene = make_case(0.4, 1e-8, h);
+  scene.loads.gravity.setZero();
+  scene.loads.lantern = TopLoad{.mass = 3000.0};
+  testing::AccountedSimulation simulation(scene, assembly);
+  simulation.mutable_state()->v << 1, 0, 0, 0.3, 2.0, 0.1;
+  const Vec3 arm(0, 0, 1.5 * 3000.0 / (3000.0 + assembly.blocks[0].mass));  // m, to the common centroid
+  const auto centroid = [&]() -> Vec3 {
+    return simulation.state().poses[0].p_WB + simulation.state().poses[0].q_WB * arm;
+  };
+  const double energy = simulation.energy().total();
+  const Vec3 start = centroid(), velocity = Vec3(1, 0, 0) + Vec3(0.3, 2.0, 0.1).cross(arm);
+  while (simulation.state().time < 1.0) simulation.advance();
+  const Vec3 straight = start + simulation.state().time * velocity;
+  return {std::abs(simulation.energy().total() / energy - 1.0),
+          (centroid() - straight).norm() / velocity.norm()};
+}
+
+// As without the mass, errors of first order in h, of the turn of 2 h in a step.
+TEST(EnergyBalance, AMassOnTopTumblesWithItsBlock) {
+  const Eigen::Vector2d coarse = tumbling_errors(2e-3), fine = tumbling_errors(1e-3);
+  for (const int i : {0, 1}) {
+    EXPECT_LT(fine[i], 5e-3) << i;
+    EXPECT_NEAR(coarse[i] / fine[i], 2.0, 0.3) << i;
+  }
+}
+
 }  // namespace
 }  // namespace cupola::energy_balance_test
