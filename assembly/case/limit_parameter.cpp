@@ -47,15 +47,10 @@ Case case_at(const Case& scene, double value) {
       break;
     }
     case LimitSearch::Parameter::acceleration: {
-      // What bears a part of its weight, at that time, has the inertia of all its mass.
-      const double factor = factor_at(scene.loads.dead_load_time, 0.0);
-      if (factor == 0.0)
+      if (factor_at(scene.loads.dead_load_time, 0.0) == 0.0)
         throw InputError(
             "loads.dead_load_time = 0 at the time 0: a critical acceleration requires that the weight acts");
-      at.loads.gravity += value / factor * g * horizontal(scene);
-      // What weighs has a mass, also where its weight is given in N.
-      for (std::optional<TopLoad>* top : {&at.loads.lantern, &at.loads.top_load})
-        if (*top && g > 0.0) (*top)->weight *= at.loads.gravity.norm() / g;
+      at.loads.pull = value * g * horizontal(scene);
       break;
     }
     case LimitSearch::Parameter::load:

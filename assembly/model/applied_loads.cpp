@@ -19,11 +19,9 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Distributes a weight and its mass over the top faces by area, at the face centroids. The weight acts along
-/// the unit vector `down`.
-void add_top_load(const Assembly& assembly, double weight, double mass, const Vec3& down, const char* key,
-                  std::vector<PointForce>* forces) {
-  CUPOLA_ASSERT(std::abs(down.norm() - 1.0) < 1e-9);
+/// Distributes a weight (a vector), its mass and its pull over the top faces by area, at the face centroids.
+void add_top_load(const Assembly& assembly, const Vec3& weight, double mass, const Vec3& pull,
+                  const char* key, std::vector<PointForce>* forces) {
   const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::top}, 0, kLastRing, "");
   if (faces.empty()) {
     const auto highest = std::ranges::max_element(
@@ -31,15 +29,17 @@ void add_top_load(const Assembly& assembly, double weight, double mass, const Ve
     throw InputError(fmt::format(
         "loads.{}: the assembly has no faces of kind top to carry it; give it to the highest block as "
         "loads.forces: [{{block: {}, force: [0, 0, {:.6g}]}}]",
-        key, highest - assembly.blocks.begin(), -weight));
+        key, highest - assembly.blocks.begin(), -weight.norm()));
   }
   double total_area = 0.0;
   for (const LoadedFace& face : faces) total_area += face.area;
-  for (const LoadedFace& face : faces)
-    forces->push_back({.block = face.block,
-                       .point = face.centroid,
-                       .force = weight * face.area / total_area * down,
-                       .mass = mass * face.area / total_area});
+  for (const LoadedFace& face : faces) {
+    const double share = face.area / total_area;
+    forces->push_back(
+        {.block = face.block, .point = face.centroid, .force = share * weight, .mass = share * mass});
+    if (!pull.isZero(0.0))
+      forces->push_back({face.block, face.centroid, share * mass * pull, PointForce::kSteady});
+  }
 }
 
 /// How far a point lies outside the faces of a convex part, m; negative inside.
@@ -222,7 +222,7 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
     if (!load) return;
     const double total = load->total(weight, g);  // negative in the derivative of a limit analysis
     const double mass = g > 0.0 ? total / g : load->mass;
-    if (total != 0.0 || mass > 0.0) add_top_load(assembly, total, mass, down, key, &forces);
+    if (total != 0.0 || mass > 0.0) add_top_load(assembly, total * down, mass, loads.pull, key, &forces);
   };
   add_top(loads.lantern, "lantern");
   add_top(loads.top_load, "top_load");
@@ -230,8 +230,8 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   for (size_t i = 0; i < loads.forces.size(); ++i)
     add_block_force(loads.forces[i], assembly, fmt::format("loads.forces[{}]", i), time++, &forces);
   for (size_t i = 0; i < loads.faces.size(); ++i)
-    add_face_load(loads.faces[i], assembly, fmt::format("loads.faces[{}]", i), loads.gravity, time++,
-                  &forces);
+    add_face_load(loads.faces[i], assembly, fmt::format("loads.faces[{}]", i), loads.gravity + loads.pull,
+                  time++, &forces);
   return forces;
 }
 
@@ -246,6 +246,12 @@ std::vector<TimeFunction> load_times(const Loads& loads) {
   for (const BlockForce& load : loads.forces) times.push_back(load.time);
   for (const FaceLoad& load : loads.faces) times.push_back(load.time);
   return times;
+}
+
+double load_factor(int of_force, const TimeFunction& dead_load_time, const std::vector<TimeFunction>& times,
+                   double time) {
+  if (of_force == PointForce::kSteady) return 1.0;
+  return factor_at(of_force == PointForce::kDeadLoad ? dead_load_time : times[of_force], time);
 }
 
 }  // namespace cupola

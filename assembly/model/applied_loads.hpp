@@ -10,16 +10,17 @@ namespace cupola {
 /// A force at a point of a block, in the as-built configuration, at its full value.
 struct PointForce {
   static constexpr int kDeadLoad = -1;  ///< varies with Loads::dead_load_time
+  static constexpr int kSteady = -2;    ///< does not vary
   int block = 0;
   Vec3 point = Vec3::Zero();  ///< m, world
   Vec3 force = Vec3::Zero();  ///< N, world
-  int time = kDeadLoad;       ///< index into load_times()
+  int time = kDeadLoad;       ///< or kSteady, or index into load_times()
   bool of_moment = false;     ///< one of the forces that stand for a moment on the block
   double mass = 0.0;          ///< kg, at the point, of a lantern or top load
 };
 
 /// All loads of a case except the weight of the blocks: lantern and top load, distributed over the top faces
-/// by area, at the face centroids, along gravity; forces and moments on blocks; tractions and pressures at
+/// by area, at the face centroids, along gravity, with their pull; forces and moments on blocks; tractions and pressures at
 /// the face centroids. Throws InputError if a load has no face or block to act on.
 std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assembly);
 
@@ -28,5 +29,8 @@ double share_beside(const BlockForce& load, const Assembly& assembly);
 
 /// The time functions that PointForce::time refers to: those of `loads.forces`, then of `loads.faces`.
 std::vector<TimeFunction> load_times(const Loads& loads);
+/// The factor on a force at a time (s). `of_force`: PointForce::time; `times`: load_times().
+double load_factor(int of_force, const TimeFunction& dead_load_time, const std::vector<TimeFunction>& times,
+                   double time);
 
 }  // namespace cupola

@@ -113,6 +113,7 @@ struct BlockHeat {
 
 struct Loads {
   Vec3 gravity{0.0, 0.0, -9.81};  ///< m/s2
+  Vec3 pull = Vec3::Zero();       ///< m/s2, of all that weighs, in full at any time: see case_at()
   std::optional<TopLoad> lantern;
   std::optional<TopLoad> top_load;
   /// Factor on gravity, lantern and top load: a ramp applies the dead load gradually.

@@ -213,9 +213,7 @@ void apply_limit(Evaluation* e) {
 std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   const std::vector<TimeFunction> times = load_times(e.acting);
   std::vector<PointForce> loads = e.loads;
-  for (PointForce& load : loads)
-    load.force *=
-        factor_at(load.time == PointForce::kDeadLoad ? e.acting.dead_load_time : times[load.time], time);
+  for (PointForce& load : loads) load.force *= load_factor(load.time, e.acting.dead_load_time, times, time);
   return loads;
 }
 
@@ -331,7 +329,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
     // The time of an end of a range is its number, that of a stage its course: they bear what acts at time 0.
     const bool timeless = out.frame.role == FrameRole::range_end || is_stage(out.frame.role);
     const double time = timeless ? 0.0 : out.frame.time;
-    out.gravity = factor_at(e.acting.dead_load_time, time) * e.acting.gravity;
+    out.gravity = factor_at(e.acting.dead_load_time, time) * e.acting.gravity + e.acting.pull;
     out.loads = loads_at(e, time);
     leave_out_loads(e, &out);
   }

@@ -5,6 +5,7 @@ namespace cupola {
 LoadSet make_loads(const Loads& loads, const Assembly& assembly) {
   LoadSet set;
   set.gravity = loads.gravity;
+  set.pull = loads.pull;
   set.dead_load_time = loads.dead_load_time;
   set.times = load_times(loads);
   for (const PointForce& load : applied_loads(loads, assembly))

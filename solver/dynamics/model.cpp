@@ -138,11 +138,11 @@ double reference_acceleration(const Model& model, const State& state) {
   for (const PointLoad& load : model.loads.points)
     force[load.block] +=
         (load.time == PointForce::kDeadLoad ? 1.0 : model.loads.factor(load, state.time)) * load.force;
-  double acceleration = model.loads.gravity.norm();
+  const Vec3 gravity = model.loads.gravity + model.loads.pull;
+  double acceleration = gravity.norm();
   for (int block : model.free_blocks) {
     const double mass = model.bodies[block].mass;
-    const Vec3 per_mass =
-        model.assembly->blocks[block].mass / mass * model.loads.gravity + force[block] / mass;
+    const Vec3 per_mass = model.assembly->blocks[block].mass / mass * gravity + force[block] / mass;
     acceleration = std::max(acceleration, per_mass.norm());
   }
   return acceleration > 0.0 ? acceleration : 1.0;

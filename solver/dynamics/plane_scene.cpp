@@ -37,7 +37,8 @@ void require_plane_blocks(const Assembly& assembly, double middle, double tolera
 }
 
 void require_plane_actions(const PlaneActions& actions, double tolerance) {
-  if (actions.loads.gravity.y() != 0.0) refuse("gravity has a component along y");
+  if (actions.loads.gravity.y() != 0.0 || actions.loads.pull.y() != 0.0)
+    refuse("gravity has a component along y");
   for (const PointLoad& load : actions.loads.points)
     if (load.force.y() != 0.0 || std::abs(load.p_BP_B.y()) > tolerance)
       refuse(fmt::format("a load on block {} acts outside the plane", load.block));

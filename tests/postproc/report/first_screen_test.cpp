@@ -387,8 +387,11 @@ TEST(FirstScreen, WeightPullsToTheSideInLimitsOfTiltAndAcceleration) {
   e.acting.forces.resize(1);
   e.summary.weight_N = 40e3;
   e.last.loads = {{1, Vec3::Zero(), Vec3(0, 0, -4e3), PointForce::kDeadLoad}};
+  e.acting.pull = g * Vec3(0.5, 0, 0);
   e.last.gravity = g * Vec3(0.5, 0, -1);
+  EXPECT_EQ(weight_text(e), "40 kN");
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, 44 kN in all; horizontal loads of 20 kN, 0.5 of the weight");
+  e.acting.pull.setZero();
   e.last.gravity = g * Vec3(0, 0.6, -0.8);
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, 36 kN in all; horizontal loads of 24 kN, 0.6 of the weight");
 }

@@ -192,5 +192,32 @@ TEST(LoadsInAnalyses, AMomentTurnsABlockAboutItsEdgeInAMotion) {
       << "it has turned by 4e-4 rad, of an arm of half of b";
 }
 
+// The pile and a fill of its weight W on it, of which only the pile bears half of its weight at the time 0.
+// It slides under mu (W / 2 + W) = a (W + W).
+TEST(LoadsInAnalyses, AccelerateAFillByItsWholeWeight) {
+  const Assembly pile = two_blocks();
+  Loads loads;
+  loads.gravity = {0, 0, -testing::kG};
+  loads.dead_load_time = RampInTime{0.5, 1.0, 1.0, 1.0};
+  FaceLoad fill;
+  fill.faces = FaceKind::top;
+  fill.fill.emplace();
+  fill.fill->level = 1.4;  // m above the floor, 1 m above the pile of 1 m2
+  fill.fill->unit_weight = free_weight(pile, testing::kG);
+  loads.faces = {fill};
+  Case scene = case_of(AnalysisType::limit, loads, pile);
+  scene.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
+  scene.analysis.limit.low = 0.0;
+  scene.analysis.limit.high = 1.0;
+  const Summary limit = run_limit(scene, pile, {}).value();
+  ASSERT_TRUE(limit.critical) << limit.message;
+  EXPECT_NEAR(limit.critical->value, 0.375, 2e-5 * 0.375) << "the width of the bracket";
+  scene.analysis.type = AnalysisType::static_;
+  scene.analysis.robustness = 4;
+  const Summary statics = run_static(scene, pile, {});
+  ASSERT_TRUE(statics.robustness) << statics.message;
+  EXPECT_NEAR(statics.robustness->acceleration_g, 0.375, 1e-4 * 0.375) << "kClose";
+}
+
 }  // namespace
 }  // namespace cupola::loads_in_analyses_test
