@@ -124,13 +124,12 @@ void declare_loads(Section& s, Loads& loads) {
               "in mm/s2? Gravity is in m/s2"});
   s.expect({"gravity (z)", loads.gravity.z(), "m/s2", kNoLowerEnd, 0.0, "",
             "upward? The z axis points up, so that gravity is [0, 0, -9.81]"});
-  s.optional_section("lantern", loads.lantern, "vertical load on the top ring of a dome, distributed by area",
+  s.optional_section("lantern", loads.lantern, "load on the top ring of a dome, with inertia, by area",
                      declare_top_load);
   if (loads.lantern)
     s.expect({"lantern.weight_fraction", loads.lantern->weight_fraction, "of the weight", 0.0, 1.0, "",
               "in per cent? 2 % is 0.02"});
-  s.optional_section("top_load", loads.top_load, "vertical load on the top of a wall, distributed by area",
-                     declare_top_load);
+  s.optional_section("top_load", loads.top_load, "the same on the tops of walls", declare_top_load);
   declare_time(s, "dead_load_time", loads.dead_load_time,
                "factor on gravity, lantern and top load, not on the horizontal accelerations of limits");
   s.list("forces", loads.forces, "forces and moments on blocks", declare_block_force);

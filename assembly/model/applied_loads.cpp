@@ -12,35 +12,13 @@
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/loaded_faces.hpp"
+#include "assembly/model/loads_on_top.hpp"
 #include "assembly/model/open_tops.hpp"
 
 namespace cupola {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
-
-/// Distributes a weight (a vector), its mass and its pull over the top faces by area, at the face centroids.
-void add_top_load(const Assembly& assembly, const Vec3& weight, double mass, const Vec3& pull,
-                  const char* key, std::vector<PointForce>* forces) {
-  const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{FaceKind::top}, 0, kLastRing, "");
-  if (faces.empty()) {
-    const auto highest = std::ranges::max_element(
-        assembly.blocks, {}, [](const Block& b) { return b.fixed ? -kFar : b.centroid.z(); });
-    throw InputError(fmt::format(
-        "loads.{}: the assembly has no faces of kind top to carry it; give it to the highest block as "
-        "loads.forces: [{{block: {}, force: [0, 0, {:.6g}]}}]",
-        key, highest - assembly.blocks.begin(), -weight.norm()));
-  }
-  double total_area = 0.0;
-  for (const LoadedFace& face : faces) total_area += face.area;
-  for (const LoadedFace& face : faces) {
-    const double share = face.area / total_area;
-    forces->push_back(
-        {.block = face.block, .point = face.centroid, .force = share * weight, .mass = share * mass});
-    if (!pull.isZero(0.0))
-      forces->push_back({face.block, face.centroid, share * mass * pull, PointForce::kSteady});
-  }
-}
 
 /// How far a point lies outside the faces of a convex part, m; negative inside.
 double distance_outside(const Assembly& assembly, const Part& part, const Vec3& point) {
@@ -215,17 +193,7 @@ void add_face_load(const FaceLoad& load, const Assembly& assembly, const std::st
 
 std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assembly) {
   std::vector<PointForce> forces;
-  const double g = loads.gravity.norm();
-  const double weight = free_weight(assembly, g);
-  const Vec3 down = g > 0.0 ? Vec3(loads.gravity / g) : Vec3(-Vec3::UnitZ());
-  const auto add_top = [&](const std::optional<TopLoad>& load, const char* key) {
-    if (!load) return;
-    const double total = load->total(weight, g);  // negative in the derivative of a limit analysis
-    const double mass = g > 0.0 ? total / g : load->mass;
-    if (total != 0.0 || mass > 0.0) add_top_load(assembly, total * down, mass, loads.pull, key, &forces);
-  };
-  add_top(loads.lantern, "lantern");
-  add_top(loads.top_load, "top_load");
+  add_loads_on_top(loads, assembly, &forces);
   int time = 0;
   for (size_t i = 0; i < loads.forces.size(); ++i)
     add_block_force(loads.forces[i], assembly, fmt::format("loads.forces[{}]", i), time++, &forces);

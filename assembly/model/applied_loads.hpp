@@ -19,9 +19,9 @@ struct PointForce {
   double mass = 0.0;          ///< kg, at the point, of a lantern or top load
 };
 
-/// All loads of a case except the weight of the blocks: lantern and top load, distributed over the top faces
-/// by area, at the face centroids, along gravity, with their pull; forces and moments on blocks; tractions and pressures at
-/// the face centroids. Throws InputError if a load has no face or block to act on.
+/// All loads of a case except the weight of the blocks: lantern and top load (see add_loads_on_top()); forces
+/// and moments on blocks; tractions and pressures at the face centroids. Throws InputError if a load has no
+/// face or block to act on.
 std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assembly);
 
 /// The part of a spread force that meets no free masonry, 0 to 1, and acts on nothing.

@@ -262,5 +262,71 @@ TEST(LoadsOnTops, AnArchStandsOnSkewbacks) {
   EXPECT_NEAR(on_tops, 2 * 1.6 * 4.0 * 2.7 * 18e3, 1e-6);
 }
 
+/// A dome of 6 m and members beside it.
+Case dome_beside(const std::string& others, const std::string& eye, const std::string& loads) {
+  const std::string file = test::fresh_folder("loads_on_tops") + "/dome.yaml";
+  std::ofstream(file) << fmt::format(R"(
+geometry:
+  members:{}
+    - name: dome
+      surface: {{type: vault, plan: {{type: circle}}, profile: {{type: semicircle, span: 6}}, thickness: 0.3, {}}}
+      bond: {{type: running, rings: 8, blocks_per_ring: 8}}
+loads: {}
+)",
+                                     others, eye, loads);
+  return read_case(file);
+}
+
+constexpr const char* kWallBeside = R"(
+    - name: wall
+      at: {origin: [10, 0, 0]}
+      surface: {type: wall, length: 4, height: 2, thickness: 1.5}
+      bond: {type: running, rings: 2, blocks_per_ring: 2})";
+
+// A lantern stands on the dome, a load on top on the wall beside it.
+TEST(LoadsOnTops, ALanternStandsOnADomeAndATopLoadOnAWall) {
+  const auto on_dome = [](const std::string& loads) {
+    const Case scene = dome_beside(kWallBeside, "eye: 0.5", loads);
+    const Assembly assembly = generate(scene);
+    Sums sums;
+    for (const PointForce& force : applied_loads(scene.loads, assembly))
+      (force.point.x() > 5.0 ? sums.walls : sums.barrel) -= force.force.z();
+    return sums;
+  };
+  const Sums lantern = on_dome("{lantern: {weight: 1000}}"), top_load = on_dome("{top_load: {weight: 1000}}");
+  EXPECT_EQ(lantern.walls, 0.0);
+  EXPECT_NEAR(lantern.barrel, 1000.0, 1e-9) << "rounding";
+  EXPECT_NEAR(top_load.walls, 1000.0, 1e-9) << "rounding";
+  EXPECT_EQ(top_load.barrel, 0.0);
+}
+
+// A closed dome beside a wall has no top for a lantern; which of two eyes it stands over, no key says.
+TEST(LoadsOnTops, ALanternWithoutItsDomeIsRefused) {
+  const auto refusal = [](const Case& scene) -> std::string {
+    try {
+      applied_loads(scene.loads, generate(scene));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string lantern = "{lantern: {weight: 1000}}";
+  EXPECT_NE(refusal(dome_beside(kWallBeside, "eye: 0.5, key_stone: true", lantern))
+                .find("no dome has faces of kind top"),
+            std::string::npos)
+      << refusal(dome_beside(kWallBeside, "eye: 0.5, key_stone: true", lantern));
+  const std::string second = R"(
+    - name: small
+      at: {origin: [10, 0, 0]}
+      surface: {type: vault, plan: {type: circle}, profile: {type: semicircle, span: 4}, thickness: 0.3, eye: EYE}
+      bond: {type: running, rings: 8, blocks_per_ring: 8})";
+  const auto with_eye = [&](const std::string& eye) {
+    return std::string(second).replace(second.find("EYE"), 3, eye);
+  };
+  EXPECT_NE(refusal(dome_beside(with_eye("0.4"), "eye: 0.5", lantern)).find("both small and dome have"),
+            std::string::npos)
+      << refusal(dome_beside(with_eye("0.4"), "eye: 0.5", lantern));
+}
+
 }  // namespace
 }  // namespace cupola::loads_on_tops_test
