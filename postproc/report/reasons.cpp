@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -144,6 +145,24 @@ std::string words_of(const CriticalValue& critical) {
   return name;
 }
 
+/// A critical factor on the loads of the case: which it multiplies, and which not.
+std::string factor_on_loads_text(const Loads& loads, double factor) {
+  const auto is_fill = [](const FaceLoad& load) { return load.fill.has_value(); };
+  const bool filled = std::ranges::any_of(loads.faces, is_fill), topped = loads.lantern || loads.top_load;
+  const bool on_faces = !std::ranges::all_of(loads.faces, is_fill);
+  const std::string_view multiplied = !on_faces              ? "forces"
+                                      : loads.forces.empty() ? "loads on faces"
+                                                             : "forces and loads on faces";
+  const std::string_view kept = filled && topped ? " (not its fill and load on top)"
+                                : filled         ? " (not its fill)"
+                                : topped         ? " (not its load on top)"
+                                                 : "";
+  if (factor < 1.0)
+    return fmt::format("It bears only {:.5g} times the {} of the case{}.", factor, multiplied, kept);
+  return fmt::format("The {} of the case{} can grow to {:.5g} times before it moves.", multiplied, kept,
+                     factor);
+}
+
 /// A limit: on which side of it the case is, and by which factor.
 std::string limit_text(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
@@ -156,10 +175,8 @@ std::string limit_text(const Evaluation& e) {
   }
   const bool holds = *factor >= 1.0;
   std::string text;
-  const bool grows = critical.parameter == "load" && critical.stable < critical.moving;
-  if (grows)
-    text =
-        fmt::format("The applied loads can grow to {:.5g} times those of the case before it moves.", *factor);
+  if (critical.parameter == "load" && critical.stable < critical.moving)
+    text = factor_on_loads_text(e.scene.loads, *factor);
   else if (critical.parameter == "joint_extent")
     text =
         fmt::format("Its joints can shrink to {:.4g} times their extent before it moves.", critical.stable);
@@ -171,8 +188,6 @@ std::string limit_text(const Evaluation& e) {
                        : critical.stable < critical.moving ? "beyond"
                                                            : "below",
                        critical.moving);
-  if (grows && !holds)
-    text = fmt::format("It bears only {:.5g} times the applied loads of the case.", *factor);
   if (critical.parameter == "joint_extent" && !holds)
     text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
   if (e.summary.friction_law == FrictionLaw::associated)

@@ -138,10 +138,24 @@ TEST(FirstScreen, ALimitSaysWhetherTheCaseStandsAndByHowMuch) {
   e.scene.analysis.limit.parameter = LimitSearch::Parameter::load;
   EXPECT_EQ(verdict_words(e).words, "It stands") << "at a factor of 1";
   EXPECT_EQ(reason_for_verdict(e),
-            "The applied loads can grow to 8 times those of the case before it moves (associated friction "
+            "The forces of the case can grow to 8 times before it moves (associated friction "
             "law). Picture and thrust belong to "
             "the critical load, not to the case.");
   EXPECT_EQ(margin_answer(e).value, "8 times the load") << "the end that stands, not the middle";
+  FaceLoad soil, wind;
+  soil.fill.emplace();
+  wind.pressure = 500.0;
+  e.scene.loads.faces = {soil};
+  EXPECT_TRUE(reason_for_verdict(e).starts_with(
+      "The forces of the case (not its fill) can grow to 8 times before it moves ("))
+      << reason_for_verdict(e);
+  e.scene.loads.faces.push_back(wind);
+  e.scene.loads.forces.emplace_back();
+  e.scene.loads.lantern = TopLoad{.weight = 1000.0};
+  e.summary.critical = CriticalValue{"load", 0.8, 0.8, 0.81};
+  EXPECT_TRUE(reason_for_verdict(e).starts_with(
+      "It bears only 0.8 times the forces and loads on faces of the case (not its fill and load on top) ("))
+      << reason_for_verdict(e);
 }
 
 // A limit of one friction of all joints says nothing of a case whose joints differ.
