@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
-#include "assembly/model/applied_loads.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "solver/dynamics/model.hpp"
 
 namespace cupola {
@@ -44,11 +45,44 @@ struct OnSupports {
   bool rigid = false;        ///< one of them is
   double area = 0.0;         ///< m2
   double capacity = 0.0;     ///< N, in compression
-  Vec3 load = Vec3::Zero();  ///< N, weight of the free blocks and forces on them
+  Vec3 load = Vec3::Zero();  ///< N, see largest_load()
 };
 
+/// The case without loads that its limit multiplies, whose size says nothing.
+Case without_multiplied(const Case& scene) {
+  using enum LimitSearch::Parameter;
+  const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
+  const bool multiplies = parameter == load || parameter == lantern;
+  return scene.analysis.type == AnalysisType::limit && multiplies ? case_at(scene, 0.0) : scene;
+}
+
+/// N, the largest sum of weight and loads within the time of the analysis.
+Vec3 largest_load(const Case& scene, const Model& model) {
+  const LoadSet& loads = model.loads;
+  double mass = 0.0;
+  for (const int block : model.free_blocks) mass += model.assembly->blocks[block].mass;
+  std::map<int, Vec3> sums;  // by their time, at factor 1
+  for (const PointLoad& load : loads.points)
+    sums.try_emplace(load.time, Vec3::Zero()).first->second += load.force;
+  const AnalysisType type = scene.analysis.type;
+  const double end = type == AnalysisType::path      ? scene.analysis.path.end
+                     : type == AnalysisType::dynamic ? scene.analysis.duration
+                                                     : 0.0;
+  Vec3 largest = Vec3::Zero();
+  for (double time = 0.0, next = 0.0;; time = std::min(next, end)) {
+    Vec3 sum = mass * loads.gravity_at(time);
+    next = next_corner(loads.dead_load_time, time);
+    for (const auto& [of_force, force] : sums) {
+      sum += load_factor(of_force, loads.dead_load_time, loads.times, time) * force;
+      if (of_force >= 0) next = std::min(next, next_corner(loads.times[of_force], time));
+    }
+    if (sum.norm() > largest.norm()) largest = sum;
+    if (time >= end) return largest;  // between corners it is hardly larger than at one of them
+  }
+}
+
 OnSupports joints_on_supports(const Case& scene, const Assembly& assembly, const ContactSet& contacts) {
-  const Model model = make_model(scene, assembly);
+  const Model model = make_model(without_multiplied(scene), assembly);
   OnSupports sum;
   for (const Contact& contact : contacts.points) {
     if (assembly.blocks[contact.block_a].fixed == assembly.blocks[contact.block_b].fixed) continue;
@@ -60,9 +94,7 @@ OnSupports joints_on_supports(const Case& scene, const Assembly& assembly, const
     sum.area += contact.area;
     sum.capacity += law.strength.compression;
   }
-  if (model.free_weight > 0.0) sum.load = model.free_weight * scene.loads.gravity.normalized();
-  for (const PointForce& force : applied_loads(scene.loads, assembly))
-    if (!assembly.blocks[force.block].fixed) sum.load += force.force;
+  sum.load = largest_load(scene, model);
   return sum;
 }
 

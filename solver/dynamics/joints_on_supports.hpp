@@ -9,7 +9,8 @@
 
 namespace cupola {
 
-/// Warnings about the joints on supports under the weight and the loads:
+/// Warnings about the joints on supports under the largest weight and loads within the analysis, but for loads
+/// that its limit multiplies:
 /// - Their compliance lets the model sink by more than 1 % of its height: the displacements then move the
 ///   thrust, and are no longer small. The sinking is estimated: these joints share the load like parallel
 ///   springs, and the load grows in proportion to the depth below the top.

@@ -75,5 +75,35 @@ TEST(WeakJoints, AreReportedIfTheyCannotCarryTheWeight) {
   }
 }
 
+// Against 1e6 N/m2 a force of 1e7 N counts as far as it acts within the analysis: at the time 0, on a path and
+// in a motion until they end, and not where a limit multiplies it.
+TEST(WeakJoints, CountLoadsThatAct) {
+  const Assembly assembly = testing::box_on_floor({1, 1, 1});
+  Case scene = per_area(1e-10);
+  scene.joints.strength.compression = 1e6;
+  scene.loads.forces = {{.block = 1, .point = {}, .force = {0, 0, -1e7}, .time = {}}};
+  const auto count = [&](AnalysisType type, TimeFunction time) {
+    scene.analysis.type = type;
+    scene.loads.forces[0].time = std::move(time);
+    return warnings_of(scene, assembly).size();
+  };
+  using enum AnalysisType;
+  scene.analysis.path.end = scene.analysis.duration = 1.0;  // s
+  const RampInTime late{0.0, 1.0, 2.0, 1.0}, part{0.0, 0.05, 0.0, 1.0}, full{0.0, 1.0, 0.0, 1.0};
+  const TableInTime peak{"", {0.0, 0.5, 1.0}, {0.0, 1.0, 0.0}};
+  EXPECT_EQ(count(static_, {}), 1u);
+  EXPECT_EQ(count(static_, full), 0u);
+  for (const AnalysisType type : {path, dynamic}) {
+    EXPECT_EQ(count(type, late), 0u) << to_string(type);
+    EXPECT_EQ(count(type, part), 0u) << to_string(type);
+    EXPECT_EQ(count(type, full), 1u) << to_string(type);
+    EXPECT_EQ(count(type, peak), 1u) << to_string(type);
+  }
+  scene.analysis.limit.parameter = LimitSearch::Parameter::load;
+  EXPECT_EQ(count(limit, {}), 0u);
+  scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
+  EXPECT_EQ(count(limit, {}), 1u);
+}
+
 }  // namespace
 }  // namespace cupola::joints_on_supports_test
