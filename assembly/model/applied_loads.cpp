@@ -20,38 +20,6 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// How far a point lies outside the faces of a convex part, m; negative inside.
-double distance_outside(const Assembly& assembly, const Part& part, const Vec3& point) {
-  double outside = -std::numeric_limits<double>::infinity();
-  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-    const auto plane = polygon_plane(face_points(assembly, f));
-    outside = std::max(outside, plane.normal.dot(point) - plane.offset);
-  }
-  return outside;
-}
-
-/// The free block that contains the point, or whose faces it is least beyond: at most a tenth of the size of
-/// the block, as the point of a curved skin lies beyond the chord of a facet. Throws InputError beyond that.
-int block_at(const Assembly& assembly, const Vec3& point, const std::string& key) {
-  int nearest = BlockForce::kAtPoint;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Part& part : assembly.parts) {
-    const double outside = distance_outside(assembly, part, point);
-    if (assembly.blocks[part.block].fixed || outside >= least) continue;
-    least = outside;
-    nearest = part.block;
-  }
-  if (nearest == BlockForce::kAtPoint)
-    throw InputError(key + ": the assembly has no free block to carry a force");
-  constexpr double kFarthest = 0.1;  // of the size of the block
-  if (least > kFarthest * std::cbrt(assembly.blocks[nearest].volume))
-    throw InputError(
-        fmt::format("{}: ({:g}, {:g}, {:g}) m lies in the air, {:.3g} m beyond the faces of the "
-                    "nearest block, {}; move the point, or name the `block` that carries the force",
-                    key, point.x(), point.y(), point.z(), least, nearest));
-  return nearest;
-}
-
 /// "; its courses are 6 to 11", counted through all members; "" without a free block.
 std::string courses_of(const Assembly& assembly, const std::string& member) {
   int low = kLastRing, high = -1;

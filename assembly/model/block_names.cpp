@@ -1,7 +1,9 @@
 #include "assembly/model/block_names.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -69,6 +71,16 @@ std::vector<BlockRef*> pointers_to(std::vector<BlockRef>* blocks) {
   return pointers;
 }
 
+/// How far a point lies outside the faces of a convex part, m; negative inside.
+double distance_outside(const Assembly& assembly, const Part& part, const Vec3& point) {
+  double outside = -std::numeric_limits<double>::infinity();
+  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+    const auto plane = polygon_plane(face_points(assembly, f));
+    outside = std::max(outside, plane.normal.dot(point) - plane.offset);
+  }
+  return outside;
+}
+
 /// The blocks that a quantity names.
 std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
   std::vector<BlockRef*> blocks;
@@ -87,6 +99,25 @@ std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
 
 }  // namespace
 
+int block_at(const Assembly& assembly, const Vec3& point, const std::string& key) {
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Part& part : assembly.parts) {
+    const double outside = distance_outside(assembly, part, point);
+    if (assembly.blocks[part.block].fixed || outside >= least) continue;
+    least = outside;
+    nearest = part.block;
+  }
+  if (nearest < 0) throw InputError(key + ": the assembly has no free block to carry a force");
+  constexpr double kFarthest = 0.1;  // of the size of the block
+  if (least > kFarthest * std::cbrt(assembly.blocks[nearest].volume))
+    throw InputError(
+        fmt::format("{}: ({:g}, {:g}, {:g}) m lies in the air, {:.3g} m beyond the faces of the "
+                    "nearest block, {}; move the point, or name the `block` that carries the force",
+                    key, point.x(), point.y(), point.z(), least, nearest));
+  return nearest;
+}
+
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports) {
   const BlockNames names(assembly);
   // `key`: of the item, so that a message finds the place that gives it, perhaps an option.
@@ -99,6 +130,9 @@ void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Sup
   resolve_in("loads.forces", "block", &loads->forces, [](BlockForce* force) {
     return force->block == BlockForce::kAtPoint ? std::vector<BlockRef*>() : std::vector{&force->block};
   });
+  for (size_t i = 0; i < loads->forces.size(); ++i)
+    if (BlockForce& force = loads->forces[i]; force.is_at_point())
+      force.block = block_at(assembly, *force.point, fmt::format("loads.forces[{}].point", i));
   resolve_in("ties.pairs", "block_a", &ties->pairs, [](PairTie* tie) { return std::vector{&tie->block_a}; });
   resolve_in("ties.pairs", "block_b", &ties->pairs, [](PairTie* tie) { return std::vector{&tie->block_b}; });
   resolve_in("supports.restraints", "block", &supports->restraints,

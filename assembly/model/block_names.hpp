@@ -15,9 +15,13 @@ std::string block_label(const Assembly& assembly, int block);
 /// The labels of the first eight of several blocks: "12, 13, ...".
 std::string block_labels(const Assembly& assembly, const std::vector<int>& blocks);
 
-/// Replaces the names of blocks in a case by their numbers. Fixed blocks without a name are called `support
-/// 0`, `support 1`, ... in their order. Throws InputError for a name or number that no block has, with the
-/// nearest name.
+/// The free block that contains the point, or whose faces it is least beyond: at most a tenth of the size of
+/// the block, as the point of a curved skin lies beyond the chord of a facet. Throws InputError beyond that.
+int block_at(const Assembly& assembly, const Vec3& point, const std::string& key);
+
+/// Replaces the names of blocks in a case by their numbers, and gives forces at points their blocks, as built.
+/// Fixed blocks without a name are called `support 0`, `support 1`, ... in their order. Throws InputError for
+/// a name or number that no block has, with the nearest name.
 void resolve_block_names(const Assembly& assembly, Loads* loads, Ties* ties, Supports* supports);
 void resolve_block_names(const Assembly& assembly, std::vector<ForceQuantity>* quantities);
 /// `key` of the case is for the message.

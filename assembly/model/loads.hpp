@@ -51,6 +51,8 @@ struct BlockForce {
   std::optional<Vec3> moment = {};
   std::optional<SharingBlocks> over = {};  ///< instead of block, point and moment
   std::optional<Spread> spread = {};       ///< instead of a block: on the extrados below `point`
+
+  bool is_at_point() const { return block == kAtPoint && point && !over && !spread; }
 };
 
 /// Backing or fill with a level surface. On a face of the masonry its vertical stress is the weight of the

@@ -65,5 +65,22 @@ TEST(BlockNames, AreKeptInTheAssemblyFile) {
       << "a load may depend on a name";
 }
 
+// A limit of the thickness thins the blocks about a load.
+TEST(BlockNames, APointChoosesItsBlockInTheBlocksAsBuilt) {
+  Assembly assembly = test::two_block_assembly();
+  Loads loads;
+  Ties ties;
+  Supports supports;
+  BlockForce at_point;
+  at_point.block = BlockForce::kAtPoint;
+  at_point.point = assembly.blocks[1].centroid;
+  loads.forces = {at_point};
+  resolve_block_names(assembly, &loads, &ties, &supports);
+  EXPECT_EQ(loads.forces[0].block, 1);
+  loads.forces[0].block = BlockForce::kAtPoint;
+  loads.forces[0].point = Vec3(0, 0, 100);
+  EXPECT_THROW(resolve_block_names(assembly, &loads, &ties, &supports), InputError);
+}
+
 }  // namespace
 }  // namespace cupola::block_names_test
