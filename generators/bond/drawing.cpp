@@ -23,6 +23,12 @@ int extent_of(const std::vector<LetterPlace>& places, size_t axis) {
   return high[axis] - low[axis] + 1;
 }
 
+/// True if letters at one place of two drawings lie side by side in the masonry.
+bool lie_side_by_side(const DrawnBond& a, const DrawnBond& b) {
+  return a.letter_length == b.letter_length && a.length == b.length && a.phase == b.phase &&
+         a.rings == b.rings && a.refine == b.refine;
+}
+
 }  // namespace
 
 BondDrawing::BondDrawing(std::vector<const DrawnBond*> layers)
@@ -71,6 +77,12 @@ void BondDrawing::fill(int column, int row, int wythe) {
         LetterPlace next = places[i];
         next[axis] += step;
         if (next[2] < 0 || next[2] >= static_cast<int>(layers_.size()) || letter_at(next) != letter) continue;
+        if (next[2] != places[i][2] && !lie_side_by_side(*layers_[static_cast<size_t>(places[i][2])],
+                                                         *layers_[static_cast<size_t>(next[2])]))
+          throw InputError(fmt::format(
+              "geometry.wythes: the letter {} is in two wythes side by side, as one block, so "
+              "that their bonds must have the same letter_length, length, phase, rings and refine",
+              letter));
         const auto [known, is_new] = reached.try_emplace(cell(next[0], next[1], next[2]), next);
         if (is_new)
           places.push_back(next);

@@ -18,7 +18,7 @@ struct DrawnBlock {
 class BondDrawing {
  public:
   /// `layers`: at least one. Throws InputError for an infinite set of connected cells, naming its letter, and
-  /// for several drawings of different size or shift.
+  /// for several drawings of different size or shift, or of different letters or courses where they share one.
   explicit BondDrawing(std::vector<const DrawnBond*> layers);
 
   const std::vector<DrawnBlock>& blocks() const { return blocks_; }

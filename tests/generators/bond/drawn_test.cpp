@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <random>
@@ -273,6 +274,28 @@ TEST(DrawnWythes, AreRefusedIfALetterGoesOnThroughThem) {
                InputError);
   EXPECT_THROW(make_wythe_bond(wythes({{"ccdd", "aabb"}, {"dcc", "baa"}}), wall(12, 4), {0, 1, 2, 3}),
                InputError);
+}
+
+// A header is one block because its letters lie side by side; without headers, wythes may differ.
+TEST(DrawnWythes, ThatShareALetterHaveEqualLettersAndCourses) {
+  const std::vector<std::function<void(DrawnBond*)>> changes{
+      [](DrawnBond* b) { b->letter_length = 0.05; }, [](DrawnBond* b) { b->phase = 2.0; },
+      [](DrawnBond* b) { b->rings = 2; }, [](DrawnBond* b) { b->refine = 2; },
+      [](DrawnBond* b) { b->length = DrawnBond::Length::constant; }};
+  for (size_t i = 0; i < changes.size(); ++i) {
+    Masonry english = wythes({{"heeffggh", "aaaabbbb"}, {"heeffggh", "ccccdddd"}});
+    changes[i](&std::get<DrawnBond>(*english.wythes[1].bond));
+    try {
+      member_names(english);
+      ADD_FAILURE() << i;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("the letter h is in two wythes"), std::string::npos)
+          << error.what();
+    }
+    Masonry apart = wythes({{"ba", "ab"}, {"dc", "cd"}});
+    changes[i](&std::get<DrawnBond>(*apart.wythes[1].bond));
+    EXPECT_EQ(member_names(apart).size(), 2u) << i;
+  }
 }
 
 // What a drawing means, checked cell by cell: neighbours of one letter belong to one block, others do not; a
