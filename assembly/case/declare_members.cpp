@@ -14,7 +14,8 @@ void declare_openings(Section& s, Openings& openings) {
             "number of openings at each position of `at`, equally spaced; 0: one on each side of the plan");
   s.numbers("at", openings.at, {.min = 0, .below = 1},
             "middles of the openings, in spacings from the first corner");
-  s.required_number("width", openings.width, {.unit = "m", .above = 0}, "width on the inner face");
+  s.required_number("width", openings.width, {.unit = "m", .above = 0},
+                    "width on the inner face, at the sill");
   s.required_number("height", openings.height, {.unit = "m", .above = 0}, "height of the opening");
   s.required_number("sill", openings.sill, {.unit = "m", .min = 0},
                     "height of its lower edge above the springing of the member");

@@ -19,7 +19,7 @@ namespace cupola {
 struct Openings {
   int per_ring = 0;             ///< of each position in `at`; 0: one on each side of the plan
   std::vector<double> at{0.5};  ///< middles, in spacings from abscissa 0 (the first corner), in [0, 1)
-  double width = 0.0;           ///< m, > 0, on the intrados
+  double width = 0.0;           ///< m, > 0, on the intrados, at the sill
   double height = 0.0;          ///< m, > 0
   double sill = 0.0;            ///< m, >= 0, height of the lower edge above the first bed
   double lintel = 0.0;          ///< m, >= 0, height of the lintel; 0: one course

@@ -11,7 +11,7 @@ namespace cupola {
 namespace {
 
 /// A bed of a surface, on which the widths of an opening are measured.
-struct Sill {
+struct Bed {
   const SurfaceMap& surface;
   double bed;
 
@@ -33,12 +33,12 @@ double room_beside(const SurfaceMap& surface, double middle, const std::vector<d
 }
 
 /// Half the range of the abscissa of a chord that fits into the room on both sides.
-double half_range(const Sill& sill, double middle, double room, double width) {
+double half_range(const Bed& on, double middle, double room, double width) {
   double low = 0.0, high = room;
-  if (sill.chord(middle, room) <= width) return room;
+  if (on.chord(middle, room) <= width) return room;
   for (int i = 0; i < 60; ++i) {  // to rounding
     const double half = 0.5 * (low + high);
-    (sill.chord(middle, half) < width ? low : high) = half;
+    (on.chord(middle, half) < width ? low : high) = half;
   }
   return high;
 }
@@ -80,19 +80,22 @@ void add_places(const Openings& group, const SurfaceMap& surface, const std::str
                     surface.height(surface.num_rows) - top));
   const int end =
       group.lintel > 0.0 ? ring_at(surface, top + group.lintel, "the top of the lintel", key) : lintel + 1;
-  const Sill sill{surface, 1.0 * first * surface.rows_per_ring};
+  const Bed sill{surface, 1.0 * first * surface.rows_per_ring};
+  const Bed bearing{surface, 1.0 * lintel * surface.rows_per_ring};
   const std::vector<double> middles = middles_of(group, surface, key);
   for (const double middle : middles) {
-    const double room = room_beside(surface, middle, middles), whole = group.width + 2.0 * group.bearing;
-    const double most = sill.chord(middle, room);
+    const double room = room_beside(surface, middle, middles);
+    const double half = half_range(sill, middle, room, group.width);
+    // Radial jambs approach each other or part where the inner face leans
+    const double parted = bearing.chord(middle, half) - sill.chord(middle, half);
+    const double whole = group.width + parted + 2.0 * group.bearing, most = bearing.chord(middle, room);
     // Rounding of the plan's coordinates, a few 1e-16 of its size
     if (whole > most * (1.0 + 1e-12))
       throw InputError(
           fmt::format("{}.width = {}: with a bearing of {} m on each side the lintel is {:.6g} m long, but "
                       "there are only {:.6g} m up to a corner or the next opening",
                       key, group.width, group.bearing, whole, most));
-    places->push_back({middle, half_range(sill, middle, room, group.width),
-                       half_range(sill, middle, room, whole), first, lintel, end});
+    places->push_back({middle, half, half_range(bearing, middle, room, whole), first, lintel, end});
   }
 }
 

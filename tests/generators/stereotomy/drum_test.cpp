@@ -9,6 +9,8 @@
 
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/bond_map.hpp"
+#include "generators/stereotomy/opening_places.hpp"
+#include "generators/surface/make_surface.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::drum_test {
@@ -142,6 +144,30 @@ TEST(Drum, LacksItsOpenings) {
   ASSERT_EQ(count(assembly, "drum lintel"), 8);
   const double lintel = 0.5 * area_between(1.2 + 2 * 0.4, kApothem, kThickness);
   EXPECT_NEAR(volume_of(assembly, "drum lintel") / (8.0 * lintel), 1.0, kSums);
+}
+
+// In a wall that leans the radial jambs approach each other, or part; the lintel rests on 0.4 m beside them
+// all the same. 1e-12: rounding of bisected angles.
+TEST(Drum, LintelsRestOnTheirBearingInWallsThatLean) {
+  for (const double batter : {0.4, -0.4, 0.0}) {
+    VaultSurface wall;
+    wall.plan.kind = Plan::Kind::circle;
+    wall.profile.kind = Profile::Kind::straight;
+    wall.profile.span = kSpan;
+    wall.profile.height = kHeight;
+    wall.profile.batter = batter;
+    wall.thickness = 0.6;
+    wall.beds = VaultSurface::Beds::level;
+    Openings group = openings(1.2, 1.5, 0.5);
+    group.per_ring = 4;
+    const SurfaceMap map = make_surface(wall, 6);
+    const OpeningPlace place = opening_places({group}, map, "openings").front();
+    const auto chord = [&](int bed, double half) {
+      return (map.intrados(bed, place.middle + half) - map.intrados(bed, place.middle - half)).norm();
+    };
+    EXPECT_NEAR(chord(1, place.half_opening), 1.2, 1e-12);
+    EXPECT_NEAR(chord(4, place.half_lintel) - chord(4, place.half_opening), 2 * 0.4, 1e-12) << batter;
+  }
 }
 
 TEST(Drum, HasAnOpeningWhereItIsPlaced) {
