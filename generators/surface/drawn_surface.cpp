@@ -9,109 +9,13 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "generators/surface/secant.hpp"
+#include "generators/surface/sail_section.hpp"
 
 namespace cupola {
 namespace {
 
 using std::numbers::pi;
-using enum OctagonalVault::Extrados;
 using Beds = VaultSurface::Beds;
-
-/// Outwards of a profile that is drawn from the springing upwards.
-Vec2 outward_normal(const Vec2& derivative) {
-  return Vec2(derivative.y(), -derivative.x()).normalized();
-}
-
-/// The sections of a sail: the corner section is (corner r, z), the section normal to the side (middle r, z).
-struct Section {
-  std::shared_ptr<const ProfileBeds> beds;
-  double corner = 1.0, middle = 1.0;  // factors on r
-  OctagonalVault::Extrados extrados = normal;
-  double drawn_depth = 0.0;
-  std::vector<double> bed_angles = {};  // rad, of given beds
-  double num_rows = 0.0;
-  bool mirrored = false;
-
-  /// The point of a bed at its place on the drawn line of the section with a factor on r.
-  Vec2 point(double bed, double place, double factor) const {
-    return scaled(beds->point(place, beds->run(bed)), factor);
-  }
-  /// Normal of that section; at a kink the bisector.
-  Vec2 normal_of(double bed, double place, double factor) const {
-    const int run = beds->run(bed);
-    const Vec2 n = outward_normal(scaled(beds->derivative(place, run), factor));
-    if (!beds->is_kink(bed)) return n;
-    return (n + outward_normal(scaled(beds->derivative(place, run + 1), factor))).normalized();
-  }
-  /// Direction of a given bed outwards.
-  Vec2 given_direction(double bed) const {
-    const double end = mirrored ? 0.5 * num_rows : num_rows;
-    const bool beyond = mirrored && bed > end;
-    const double spans = static_cast<double>(bed_angles.size() - 1);
-    const double at = std::clamp((beyond ? num_rows - bed : bed) / end * spans, 0.0, spans);
-    const size_t i = std::min(static_cast<size_t>(at), bed_angles.size() - 2);
-    const double angle = std::lerp(bed_angles[i], bed_angles[i + 1], at - static_cast<double>(i));
-    return {beyond ? -std::cos(angle) : std::cos(angle), std::sin(angle)};
-  }
-  /// On the section normal to the side, at a place on a run and a depth (m) behind the intrados.
-  Vec2 layer(double place, int run, double from_intrados) const {
-    const double depth = from_intrados - drawn_depth;
-    const Vec2 p = beds->point(place, run), d = beds->derivative(place, run);
-    if (depth == 0.0) return scaled(p, middle);
-    if (extrados == normal) return scaled(p, middle) + depth * outward_normal(scaled(d, middle));
-    if (extrados == OctagonalVault::Extrados::bed) return scaled(p, middle) + Vec2(depth, 0.0);
-    const double along = extrados == midsail ? depth * corner / middle : depth;
-    return scaled(scaled(p, corner) + along * outward_normal(scaled(d, corner)), middle / corner);
-  }
-  /// The run whose layer a bed in a given direction meets: at a kink the layers of the two runs meet on the
-  /// bisector.
-  int run_met(double bed, double place, const Vec2& along, double from_intrados) const {
-    const double depth = from_intrados - drawn_depth;
-    const bool meets_upper = beds->is_kink(bed) && depth * cross(normal_of(bed, place, middle), along) > 0.0;
-    return beds->run(bed) + (meets_upper ? 1 : 0);
-  }
-  static Vec2 scaled(const Vec2& v, double factor) { return {factor * v.x(), v.y()}; }
-};
-
-/// Where f is zero near a place.
-template <class Function>
-double place_where(const Function& f, double place) {
-  return f(place) == 0.0 ? place : secant_root(f, place, place + 1e-3);
-}
-
-/// The point of a bed that is plane in each sail: where a line through the bed on the drawn line meets the
-/// layer.
-Vec2 plane_bed_point(const Section& section, Beds beds, double bed, double depth) {
-  const double place = section.beds->place(bed);
-  if (beds == Beds::normal && !section.beds->is_kink(bed))
-    return section.layer(place, section.beds->run(bed), depth);
-  const Vec2 on_line = section.point(bed, place, section.middle);
-  const Vec2 along = beds == Beds::level   ? Vec2(1.0, 0.0)
-                     : beds == Beds::given ? section.given_direction(bed)
-                                           : section.normal_of(bed, place, section.middle);
-  const int run = section.run_met(bed, place, along, depth);
-  const auto off_bed = [&](double u) -> double {
-    return cross(section.layer(u, run, depth) - on_line, along);
-  };
-  const Vec2 p = section.layer(place_where(off_bed, place), run, depth);
-  return {p.x(), beds == Beds::level ? on_line.y() : p.y()};
-}
-
-/// The point of a conical bed at q = 1 / cos psi: its distance from the axis and its height.
-Vec2 conical_bed_point(const Section& section, double bed, double depth, double q) {
-  const double place = section.beds->place(bed);
-  const Vec2 on_corner = section.point(bed, place, section.corner),
-             n = section.normal_of(bed, place, section.corner);
-  const int run = section.beds->run(bed);
-  const auto beside = [&](double u) {
-    const Vec2 p = section.layer(u, run, depth);
-    return (q * p.x() - on_corner.x()) * n.y() - (p.y() - on_corner.y()) * n.x();
-  };
-  const Vec2 p = section.layer(place_where(beside, place), run, depth);
-  const double rho = q * p.x();
-  return {rho, std::abs(n.x()) < 0.1 ? p.y() : on_corner.y() + (rho - on_corner.x()) * n.y() / n.x()};
-}
 
 /// A convex polygon whose sides move inwards by equal distances.
 class MovingPolygon {
@@ -196,7 +100,7 @@ double smooth_volume(const Drawing& drawing, double depth_from, double depth_to)
   return volume;
 }
 
-SurfaceMap along_line(const Drawing& drawing, const Section& section, SurfaceMap surface) {
+SurfaceMap along_line(const Drawing& drawing, const SailSection& section, SurfaceMap surface) {
   surface.extent = drawing.plan.length;
   surface.flat_slices = true;
   const bool along_x = drawing.plan.axis == Plan::Axis::x;
@@ -207,7 +111,7 @@ SurfaceMap along_line(const Drawing& drawing, const Section& section, SurfaceMap
   return surface;
 }
 
-SurfaceMap round_circle(const Drawing& drawing, const Section& section, SurfaceMap surface) {
+SurfaceMap round_circle(const Drawing& drawing, const SailSection& section, SurfaceMap surface) {
   surface.at = [=, beds = drawing.beds](double bed, double azimuth, double depth) {
     const Vec2 p = plane_bed_point(section, beds, bed, depth);
     return Vec3(p.x() * std::cos(azimuth), p.x() * std::sin(azimuth), p.y());
@@ -222,7 +126,7 @@ bool is_upright(const Drawing& drawing) {
   });
 }
 
-SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceMap surface) {
+SurfaceMap over_polygon(const Drawing& drawing, const SailSection& section, SurfaceMap surface) {
   const Plan& plan = drawing.plan;
   const MovingPolygon polygon(corners_of(plan, section.point(0.0, 0.0, section.corner)));
   surface.corners = abscissae_of(plan, polygon);
@@ -267,7 +171,7 @@ SurfaceMap over_polygon(const Drawing& drawing, const Section& section, SurfaceM
 SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
   const Plan& plan = drawing.plan;
   const bool is_line = !plan.closed(), is_round = plan.kind == Plan::Kind::circle;
-  Section section;
+  SailSection section;
   section.beds = std::make_shared<ProfileBeds>(drawing.profile, rings, drawing.rows_per_ring, drawing.courses,
                                                drawing.mirrored);
   section.extrados = drawing.extrados;

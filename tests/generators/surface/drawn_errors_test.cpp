@@ -1,5 +1,6 @@
 // Profiles carried along plans that are refused, and random ones, which are laid or refused.
 
+#include <cmath>
 #include <cstdlib>
 #include <random>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "assembly/base/error.hpp"
 #include "generators/generate.hpp"
+#include "generators/surface/make_surface.hpp"
 #include "tests/generators/models.hpp"
 #include "tests/generators/surface/drawn_vaults.hpp"
 
@@ -62,6 +64,24 @@ TEST(DrawnErrors, NameTheKeyAndThePlace) {
             std::string::npos);
   VaultSurface narrow = vault_on(Plan::Kind::corners, profile_of(Kind::semicircle, 20.0));
   EXPECT_NE(error_of(narrow).find("vanishes before the last bed"), std::string::npos);
+}
+
+// The profile ends at z = sqrt(25 - eye^2), its intrados at 4.5 m: at an eye of 2.2 m the last bed lies at
+// 4.490 m, at 2.15 m at 4.514 m. 1e-12: rounding of the root.
+TEST(DrawnErrors, LevelBedsMeetTheIntradosOrAreRefused) {
+  VaultSurface level = vault_on(Plan::Kind::circle, profile_of(Kind::semicircle), 1.0);
+  level.line = VaultSurface::Line::middle;
+  level.beds = VaultSurface::Beds::level;
+  level.eye = 2.2;
+  EXPECT_NEAR(make_surface(level, 8).intrados(8, 0).x(), std::sqrt(4.5 * 4.5 - (25 - 2.2 * 2.2)), 1e-12);
+  for (const double eye : {2.15, 2.05, 2.0, 1.9, 1.3}) {
+    level.eye = eye;
+    EXPECT_NE(error_of(level).find("geometry.surface.beds = level: the bed at z = 4."), std::string::npos)
+        << eye << error_of(level);
+  }
+  level.plan.kind = Plan::Kind::polygon;
+  level.eye = 2.0;
+  EXPECT_NE(error_of(level).find("does not meet the intrados; choose a larger eye"), std::string::npos);
 }
 
 // Whatever is drawn is laid without gaps and overlaps, or refused with its key.
