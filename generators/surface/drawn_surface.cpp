@@ -1,7 +1,6 @@
 #include "generators/surface/drawn_surface.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -76,33 +75,10 @@ std::vector<double> abscissae_of(const Plan& plan, const MovingPolygon& polygon)
   return at;
 }
 
-/// Volume of the smooth shell per m of a barrel or of revolution; see the header.
-double smooth_volume(const Drawing& drawing, double depth_from, double depth_to) {
-  constexpr std::array kNodes{0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
-  constexpr std::array kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
-                                0.1012285362903763};
-  const double width = depth_to - depth_from;
-  const double square = (depth_to * depth_to - depth_from * depth_from) / 2.0;
-  const double cube = (depth_to * depth_to * depth_to - depth_from * depth_from * depth_from) / 3.0;
-  double volume = 0.0;
-  for (const ProfilePiece& piece : drawing.profile)
-    for (size_t i = 0; i < kNodes.size(); ++i)
-      for (const double side : {-0.5, 0.5}) {
-        const double t = 0.5 + side * kNodes[i];
-        const Vec2 d = piece.derivative(t);
-        const double area = d.norm() * width + piece.turn * square;
-        const double first = d.norm() * square + piece.turn * cube;  // moment about the drawn line
-        const bool round = drawing.plan.kind == Plan::Kind::circle;
-        volume += 0.5 * kWeights[i] *
-                  (round ? 2.0 * pi * (piece.at(t).x() * area + outward_normal(d).x() * first)
-                         : drawing.plan.length * area);
-      }
-  return volume;
-}
-
 SurfaceMap along_line(const Drawing& drawing, const SailSection& section, SurfaceMap surface) {
   surface.extent = drawing.plan.length;
   surface.flat_slices = true;
+  surface.shell_volume = section_integral(section, drawing.beds, drawing.thickness, drawing.plan.length, 0.0);
   const bool along_x = drawing.plan.axis == Plan::Axis::x;
   surface.at = [=, beds = drawing.beds](double bed, double abscissa, double depth) {
     const Vec2 p = plane_bed_point(section, beds, bed, depth);
@@ -112,6 +88,7 @@ SurfaceMap along_line(const Drawing& drawing, const SailSection& section, Surfac
 }
 
 SurfaceMap round_circle(const Drawing& drawing, const SailSection& section, SurfaceMap surface) {
+  surface.shell_volume = section_integral(section, drawing.beds, drawing.thickness, 0.0, 2.0 * pi);
   surface.at = [=, beds = drawing.beds](double bed, double azimuth, double depth) {
     const Vec2 p = plane_bed_point(section, beds, bed, depth);
     return Vec3(p.x() * std::cos(azimuth), p.x() * std::sin(azimuth), p.y());
@@ -152,6 +129,13 @@ SurfaceMap over_polygon(const Drawing& drawing, const SailSection& section, Surf
           "choose a larger eye",
           i, most));
   surface.flat_slices = true;
+  double around = 0.0, less = 0.0;  // m, the circumference, and per m inwards
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    around += polygon.side(i, 0.0);
+    less += polygon.side(i, 0.0) - polygon.side(i, 1.0);
+  }
+  surface.shell_volume =
+      section_integral(section, drawing.beds, drawing.thickness, around - less * first, less);
   surface.at = [=, corners = surface.corners, beds = drawing.beds](double bed, double abscissa,
                                                                    double depth) {
     const double a = abscissa - 2.0 * pi * std::floor(abscissa / (2.0 * pi));
@@ -202,11 +186,8 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
     surface.springers = plan.springers;
   }
   surface.carries = surface.last_bed_held || surface.key_stone;
-  const bool even = std::ranges::all_of(drawing.profile, &ProfilePiece::even);
-  if ((is_line || is_round) && drawing.beds == Beds::normal && section.beds->num_runs() == 1 && even)
-    surface.shell_volume =
-        smooth_volume(drawing, -drawing.drawn_depth, drawing.thickness - drawing.drawn_depth);
-  surface.flat_rings = drawing.profile.size() == 1 && even && drawing.profile.front().turn == 0.0 &&
+  surface.flat_rings = drawing.profile.size() == 1 && drawing.profile.front().even &&
+                       drawing.profile.front().turn == 0.0 &&
                        (is_upright(drawing) || (!is_round && drawing.beds != Beds::conical));
   surface = is_line    ? along_line(drawing, section, std::move(surface))
             : is_round ? round_circle(drawing, section, std::move(surface))

@@ -42,8 +42,8 @@ struct Drawing {
 ///
 /// A kink of the profile is a bed in the bisector of its two normals.
 ///
-/// `shell_volume` is known where beds are normal, and the plan is a line or a circle: with the length L of a
-/// piece and the angle phi by which its normal turns, dA = (L + phi depth) dt d(depth).
+/// `shell_volume` is known where beds are plane in each sail, or cones over a circle: the integral of the
+/// circumference, which is linear in r, over the section.
 SurfaceMap drawn_surface(const Drawing& drawing, int rings);
 
 }  // namespace cupola

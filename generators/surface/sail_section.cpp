@@ -1,7 +1,9 @@
 #include "generators/surface/sail_section.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,6 +51,33 @@ double place_met(const SailSection& section, Beds beds, double bed, int run, dou
     return cross(section.layer(u, run, depth) - on_line, along);
   };
   return place_on(off_bed, place, beds, on_line.y(), depth);
+}
+
+/// The integral of at_axis r + per_r r^2 / 2 over z along a straight line.
+double along_chord(const Vec2& a, const Vec2& b, double at_axis, double per_r) {
+  const double r = 0.5 * (a.x() + b.x()), square = (a.x() * a.x() + a.x() * b.x() + b.x() * b.x()) / 3.0;
+  return (b.y() - a.y()) * (at_axis * r + 0.5 * per_r * square);
+}
+
+/// The same along a smooth curve from one place to another, exact to rounding: Romberg's rule, because the
+/// error of n chords has only even powers of 1/n.
+template <class Curve>
+double along_curve(const Curve& curve, double from, double to, double at_axis, double per_r) {
+  std::array<double, 8> table{};  // of half as many chords, by the number of extrapolations
+  for (size_t level = 0; level < table.size(); ++level) {
+    const int n = 1 << level;
+    double sum = 0.0, power = 1.0;
+    for (int i = 0; i < n; ++i)
+      sum += along_chord(curve(std::lerp(from, to, 1.0 * i / n)), curve(std::lerp(from, to, (i + 1.0) / n)),
+                         at_axis, per_r);
+    for (size_t j = 0; j < level; ++j) {
+      power *= 4.0;
+      const double better = sum + (sum - table[j]) / (power - 1.0);
+      table[j] = std::exchange(sum, better);
+    }
+    table[level] = sum;
+  }
+  return table.back();
 }
 
 }  // namespace
@@ -115,6 +144,34 @@ Vec2 conical_bed_point(const SailSection& section, double bed, double depth, dou
   const Vec2 p = section.layer(met, run, depth);
   const double rho = q * p.x();
   return {rho, std::abs(n.x()) < 0.1 ? p.y() : on_corner.y() + (rho - on_corner.x()) * n.y() / n.x()};
+}
+
+double section_integral(const SailSection& section, Beds beds, double thickness, double at_axis,
+                        double per_r) {
+  const ProfileBeds& line = *section.beds;
+  double sum = 0.0;
+  for (const double depth : {0.0, thickness}) {
+    int run = 0;
+    const auto layer = [&](double place) { return section.layer(place, run, depth); };
+    double along = 0.0, from = place_met(section, beds, 0.0, run, depth);
+    for (int bed = 1; bed <= section.num_rows; ++bed) {
+      const bool is_last = bed == section.num_rows;
+      if (!is_last && !line.is_kink(bed)) continue;
+      const double to = place_met(section, is_last ? beds : Beds::normal, bed, run, depth);
+      while (from < to) {
+        const double end = std::min(std::floor(from) + 1.0, to);  // of a piece
+        along += along_curve(layer, from, end, at_axis, per_r);
+        from = end;
+      }
+      if (!is_last) from = place_met(section, Beds::normal, bed, ++run, depth);
+    }
+    sum += depth > 0.0 ? along : -along;
+  }
+  const auto across = [&](double bed) {
+    return along_chord(plane_bed_point(section, beds, bed, 0.0),
+                       plane_bed_point(section, beds, bed, thickness), at_axis, per_r);
+  };
+  return sum + across(0.0) - across(section.num_rows);
 }
 
 }  // namespace cupola

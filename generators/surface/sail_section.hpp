@@ -37,6 +37,11 @@ struct SailSection {
 /// layer.
 Vec2 plane_bed_point(const SailSection& section, VaultSurface::Beds beds, double bed, double depth);
 
+/// The integral of at_axis + per_r r over the section normal to the side, between the first bed, the last bed
+/// and two layers, which go on to the bisectors of the kinks.
+double section_integral(const SailSection& section, VaultSurface::Beds beds, double thickness, double at_axis,
+                        double per_r);
+
 /// The point of a conical bed at q = 1 / cos psi: its distance from the axis and its height.
 Vec2 conical_bed_point(const SailSection& section, double bed, double depth, double q);
 
