@@ -103,12 +103,25 @@ bool is_upright(const Drawing& drawing) {
   });
 }
 
+/// A cone through a kink at the corners meets the sails above or below it.
+void refuse_kinks(const SailSection& section) {
+  for (int bed = 1; bed < section.num_rows; ++bed) {
+    if (!section.beds->is_kink(bed)) continue;
+    const Vec2 kink = section.point(bed, section.beds->place(bed), section.corner);
+    throw InputError(
+        fmt::format("geometry.surface.beds = conical: the profile has a kink at ({:.6g}, {:.6g}) m, which "
+                    "cones about the axis leave between the corners; use beds: normal",
+                    kink.x(), kink.y()));
+  }
+}
+
 SurfaceMap over_polygon(const Drawing& drawing, const SailSection& section, SurfaceMap surface) {
   const Plan& plan = drawing.plan;
   const MovingPolygon polygon(corners_of(plan, section.point(0.0, 0.0, section.corner)));
   surface.corners = abscissae_of(plan, polygon);
   if (plan.kind == Plan::Kind::polygon) surface.sail_width = 2.0 * pi / plan.sides;
   if (drawing.beds == Beds::conical) {
+    refuse_kinks(section);
     surface.flat_skins = surface.flat_slices = is_upright(drawing);
     surface.at = [=, sail = surface.sail_width](double bed, double azimuth, double depth) {
       const double psi = azimuth - (std::floor(azimuth / sail) + 0.5) * sail;

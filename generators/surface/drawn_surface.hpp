@@ -40,7 +40,7 @@ struct Drawing {
 ///
 /// `given` beds are as `normal` ones, at their angles.
 ///
-/// A kink of the profile is a bed in the bisector of its two normals.
+/// A kink of the profile is a bed in the bisector of its two normals; conical beds have none.
 ///
 /// `shell_volume` is known where beds are plane in each sail, or cones over a circle: the integral of the
 /// circumference, which is linear in r, over the section.

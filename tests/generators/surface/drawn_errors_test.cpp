@@ -84,6 +84,17 @@ TEST(DrawnErrors, LevelBedsMeetTheIntradosOrAreRefused) {
   EXPECT_NE(error_of(level).find("does not meet the intrados; choose a larger eye"), std::string::npos);
 }
 
+// Cones through a kink at the corners meet the sails above or below it.
+TEST(DrawnErrors, ConicalBedsHaveNoKinks) {
+  VaultSurface kinked = vault_on(Plan::Kind::polygon, chain_of({5, 5, 4, 4}, {0, 2, 3, 5}), 0.2);
+  kinked.eye = 0.0;
+  EXPECT_EQ(error_of(kinked, 24), "");
+  kinked.beds = VaultSurface::Beds::conical;
+  EXPECT_NE(error_of(kinked, 24).find("geometry.surface.beds = conical: the profile has a kink at (5, 2) m"),
+            std::string::npos)
+      << error_of(kinked, 24);
+}
+
 // Whatever is drawn is laid without gaps and overlaps, or refused with its key.
 void expect_laid_or_refused(int count, unsigned seed) {
   std::mt19937 random(seed);
