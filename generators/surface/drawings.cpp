@@ -46,7 +46,7 @@ Plan line_plan(double length, Plan::Axis axis) {
   return plan;
 }
 
-/// Least radius of curvature of the drawn line on its concave side, m; infinity without one.
+/// Least radius of curvature of the drawn line where it turns inwards, m; infinity without one.
 double least_radius(const ProfilePiece& piece) {
   double least = std::numeric_limits<double>::infinity();
   constexpr double kStep = 1e-4;
@@ -54,7 +54,7 @@ double least_radius(const ProfilePiece& piece) {
     const double t = i / 200.0;
     const Vec2 d = piece.derivative(t), change = piece.derivative(t + kStep) - piece.derivative(t - kStep);
     const double turn = (d.x() * change.y() - d.y() * change.x()) / (2.0 * kStep);
-    if (turn != 0.0) least = std::min(least, std::pow(d.norm(), 3) / std::abs(turn));
+    if (turn > 0.0) least = std::min(least, std::pow(d.norm(), 3) / turn);
   }
   return least;
 }
@@ -371,26 +371,24 @@ Drawing drawing_of(const VaultSurface& vault) {
   drawing.drawn_depth = vault.line == VaultSurface::Line::intrados ? 0.0
                         : vault.line == VaultSurface::Line::middle ? 0.5 * vault.thickness
                                                                    : vault.thickness;
-  check_curvature(drawing.profile, vault, drawing.drawn_depth);
   const double top = drawing.profile.back().at(1.0).x();
   const double rounding = 1e-9 * vault.profile.width();
   if (is_groin) {
     draw_web(vault, rounding, &drawing);
-    return drawing;
-  }
-  if (is_line) {
+  } else if (is_line) {
     drawing.mirrored = vault.profile.kind != Profile::Kind::straight && std::abs(top) < rounding;
     if (drawing.mirrored) drawing.profile = with_mirror_image(std::move(drawing.profile));
-    return drawing;
+  } else {
+    if (vault.eye > 0.0) drawing.profile = outside_eye(std::move(drawing.profile), vault.eye, rounding);
+    const Vec2 last = drawing.profile.back().at(1.0);
+    if (last.x() - drawing.drawn_depth < rounding)
+      throw InputError(fmt::format(
+          "geometry.surface.eye = {}: the profile reaches the axis at z = {:.6g} m; give the radius of an "
+          "eye, or of the key stone that closes it (key_stone: true), above {:.3g} m; a solid tip on level "
+          "beds is loads.lantern: {{weight: N}}",
+          vault.eye, last.y(), drawing.drawn_depth));
   }
-  if (vault.eye > 0.0) drawing.profile = outside_eye(std::move(drawing.profile), vault.eye, rounding);
-  const Vec2 last = drawing.profile.back().at(1.0);
-  if (last.x() - drawing.drawn_depth < rounding)
-    throw InputError(fmt::format(
-        "geometry.surface.eye = {}: the profile reaches the axis at z = {:.6g} m; give the radius of an eye, "
-        "or of the key stone that closes it (key_stone: true), above {:.3g} m; a solid tip on level beds is "
-        "loads.lantern: {{weight: N}}",
-        vault.eye, last.y(), drawing.drawn_depth));
+  check_curvature(drawing.profile, vault, drawing.drawn_depth);
   return drawing;
 }
 

@@ -95,6 +95,26 @@ TEST(DrawnErrors, ConicalBedsHaveNoKinks) {
       << error_of(kinked, 24);
 }
 
+// An arc that turns away from the axis has its centre outside, so that the intrados has the larger radius.
+TEST(DrawnErrors, OnlyArcsTowardsTheAxisFoldInside) {
+  const auto ogee = [](double radius) {
+    VaultSurface v = vault_on(
+        Plan::Kind::circle, chain_of({6, 5, 4.882843, 4.882843}, {0, 1, 1.282843, 3.282843}, {0, radius, 0}));
+    v.line = VaultSurface::Line::extrados;
+    v.eye = 0.0;
+    return v;
+  };
+  EXPECT_EQ(error_of(ogee(-0.4), 20), "");
+  EXPECT_NE(error_of(ogee(0.4), 20).find("has a radius of 0.4 m"), std::string::npos);
+}
+
+// The least radius of the ellipse, 0.333 m, is at the crown; at the eye it is 10.1 m.
+TEST(DrawnErrors, WhatTheEyeTakesAwayFoldsNothing) {
+  VaultSurface slender = vault_on(Plan::Kind::circle, profile_of(Kind::ellipse, 4.0, 12.0), 0.8);
+  slender.line = VaultSurface::Line::middle;
+  EXPECT_EQ(error_of(slender), "");
+}
+
 // Whatever is drawn is laid without gaps and overlaps, or refused with its key.
 void expect_laid_or_refused(int count, unsigned seed) {
   std::mt19937 random(seed);
