@@ -381,12 +381,12 @@ Drawing drawing_of(const VaultSurface& vault) {
   } else {
     if (vault.eye > 0.0) drawing.profile = outside_eye(std::move(drawing.profile), vault.eye, rounding);
     const Vec2 last = drawing.profile.back().at(1.0);
-    if (last.x() - drawing.drawn_depth < rounding)
-      throw InputError(fmt::format(
-          "geometry.surface.eye = {}: the profile reaches the axis at z = {:.6g} m; give the radius of an "
-          "eye, or of the key stone that closes it (key_stone: true), above {:.3g} m; a solid tip on level "
-          "beds is loads.lantern: {{weight: N}}",
-          vault.eye, last.y(), drawing.drawn_depth));
+    if (last.x() < rounding)
+      throw InputError(
+          fmt::format("geometry.surface.eye = {}: the profile reaches the axis at z = {:.6g} m; give the "
+                      "radius of an eye, or of the key stone that closes it (key_stone: true); a solid tip "
+                      "on level beds is loads.lantern: {{weight: N}}",
+                      vault.eye, last.y()));
   }
   check_curvature(drawing.profile, vault, drawing.drawn_depth);
   return drawing;

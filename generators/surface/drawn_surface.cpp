@@ -163,6 +163,15 @@ SurfaceMap over_polygon(const Drawing& drawing, const SailSection& section, Surf
   return surface;
 }
 
+/// Throws where the intrados has reached the axis on the last bed; m, from the axis.
+void refuse_eye(double of_line, double of_intrados) {
+  if (of_intrados >= 1e-9 * of_line) return;
+  throw InputError(fmt::format(
+      "geometry.surface.eye: on the last bed the drawn line lies at r = {:.6g} m, the intrados at "
+      "r = {:.6g} m, beyond the axis; choose a larger eye",
+      of_line, of_intrados));
+}
+
 }  // namespace
 
 SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
@@ -206,6 +215,8 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
             : is_round ? round_circle(drawing, section, std::move(surface))
                        : over_polygon(drawing, section, std::move(surface));
   const double last = surface.num_rows;
+  if (is_round || plan.kind == Plan::Kind::polygon)
+    refuse_eye(drawing.profile.back().at(1.0).x(), surface.at(last, 0.0, 0.0).x());
   constexpr double kFlattest = 0.05;  // rise of the sides of a key stone over the thickness
   if (drawing.key_stone && surface.at(last, 0.0, drawing.thickness).z() - surface.at(last, 0.0, 0.0).z() <
                                kFlattest * drawing.thickness)

@@ -69,5 +69,34 @@ TEST(Eye, OfAHorseshoeMayBeWiderThanItsSpringing) {
   }
 }
 
+// A dome of 5 m drawn by its back is the same drawn by its intrados of 4.5 m: the eye of 0.4 m shrinks to 0.36
+// m.
+TEST(Eye, OfADrawnBackMayBeNarrowerThanTheThickness) {
+  VaultSurface back = vault(Profile::Kind::semicircle, 0.4);
+  back.profile.span = 10.0;
+  back.thickness = 0.5;
+  VaultSurface inside = back;
+  inside.profile.span = 9.0;
+  inside.eye = 0.36;
+  back.line = VaultSurface::Line::extrados;
+  const SurfaceMap a = make_surface(back, 8), b = make_surface(inside, 8);
+  for (int bed = 0; bed <= 8; ++bed)
+    for (const int layer : {0, 1})
+      EXPECT_LT((a.point(bed, 0.3, layer) - b.point(bed, 0.3, layer)).norm(), 1e-14) << "rounding of 5 m";
+}
+
+// The normal of a pointed profile is inclined at the crown, so that a small eye is less than none inside.
+TEST(Eye, LeavesTheIntradosOutsideTheAxis) {
+  VaultSurface pointed = vault(Profile::Kind::pointed, 0.1);
+  pointed.line = VaultSurface::Line::extrados;
+  for (const auto beds : {VaultSurface::Beds::normal, VaultSurface::Beds::level}) {
+    pointed.beds = beds;
+    pointed.eye = beds == VaultSurface::Beds::normal ? 0.1 : 0.3;
+    expect_part(refusal(pointed), "geometry.surface.eye: on the last bed the drawn line lies at");
+  }
+  pointed.eye = 1.0;
+  EXPECT_EQ(refusal(pointed), "");
+}
+
 }  // namespace
 }  // namespace cupola::eye_test
