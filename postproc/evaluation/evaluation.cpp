@@ -334,7 +334,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
     leave_out_loads(e, &out);
   }
   out.from_below = wrenches_from_below(e.assembly, out.joints, out.poses);
-  out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes);
+  out.fields = block_fields(e.assembly, out.frame, out.joints, out.from_below, out.loads, e.axes, out.poses);
   if (at_rest(e) && !mechanism)
     out.groups.assign(e.assembly.blocks.size(), 0);
   else

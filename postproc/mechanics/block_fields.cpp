@@ -12,27 +12,27 @@
 namespace cupola {
 namespace {
 
+/// Of every block as built, back to which its forces turn with it.
 std::vector<Mat3> mean_stresses(const Assembly& assembly, const Frame& frame,
-                                const std::vector<PointForce>& loads) {
+                                const std::vector<PointForce>& loads, const Poses& poses) {
   CUPOLA_ASSERT(frame.blocks.position.size() == assembly.blocks.size());
   std::vector<Mat3> stress(assembly.blocks.size(), Mat3::Zero());
-  std::vector<Vec3> centroid = frame.blocks.contact_position;
-  if (centroid.empty())
-    for (const Block& block : assembly.blocks) centroid.push_back(block.centroid);
+  const auto add = [&](int block, const Vec3& at, const Vec3& force) {
+    const Wrench built = poses.as_built(block, Wrench{at, force, Vec3::Zero()});
+    stress[block] += (built.point - assembly.blocks[block].centroid) * built.force.transpose();
+  };
   const ContactTable& c = frame.contacts;
   for (int i = 0; i < c.size(); ++i) {
-    stress[c.block_b[i]] += (c.point[i] - centroid[c.block_b[i]]) * c.force[i].transpose();
-    stress[c.block_a[i]] -= (c.point[i] - centroid[c.block_a[i]]) * c.force[i].transpose();
+    add(c.block_b[i], c.point[i], c.force[i]);
+    add(c.block_a[i], c.point[i], -c.force[i]);
   }
   const TieTable& ties = frame.ties;
   for (int i = 0; i < ties.size(); ++i) {
-    const int a = ties.block_a[i], b = ties.block_b[i];
     const Vec3 on_b = tie_force_on_b(ties, i);
-    stress[b] += (ties.point_b[i] - centroid[b]) * on_b.transpose();
-    stress[a] -= (ties.point_a[i] - centroid[a]) * on_b.transpose();
+    add(ties.block_b[i], ties.point_b[i], on_b);
+    add(ties.block_a[i], ties.point_a[i], -on_b);
   }
-  for (const PointForce& load : loads)
-    stress[load.block] += (load.point - assembly.blocks[load.block].centroid) * load.force.transpose();
+  for (const PointForce& load : loads) add(load.block, poses.placed(load.block, load.point), load.force);
   for (size_t b = 0; b < stress.size(); ++b) stress[b] /= assembly.blocks[b].volume;
   return stress;
 }
@@ -56,10 +56,10 @@ std::vector<std::vector<int>> vertices_of_blocks(const Assembly& assembly) {
 std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
                                       const JointWrenches& joints, const std::vector<Wrench>& from_below,
                                       const std::vector<PointForce>& loads,
-                                      const std::vector<ShellAxes>& axes) {
+                                      const std::vector<ShellAxes>& axes, const Poses& poses) {
   CUPOLA_ASSERT(from_below.size() == assembly.blocks.size() && axes.size() == assembly.blocks.size());
   std::vector<BlockFields> fields(assembly.blocks.size());
-  const std::vector<Mat3> stress = mean_stresses(assembly, frame, loads);
+  const std::vector<Mat3> stress = mean_stresses(assembly, frame, loads, poses);
   const Floor& floor = joints.floor;
   const double size = block_size(assembly), per_metre = size > 0.0 ? floor.force / size : 0.0;
   for (size_t b = 0; b < fields.size(); ++b) {

@@ -7,6 +7,7 @@
 
 #include "assembly/model/applied_loads.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
+#include "postproc/mechanics/poses.hpp"
 #include "postproc/mechanics/shell.hpp"
 
 namespace cupola {
@@ -30,13 +31,14 @@ struct BlockFields {
 ///
 ///     sigma = 1/V  sum (x - c) f^T        (Love, Weber; holds for a block in equilibrium)
 ///
-/// as -m.sigma.m and -t.sigma.t times the thickness of the shell. They thus average over the block the
-/// friction on its beds and the pressure on its heads. They are zero for fixed blocks, for blocks without
-/// shell axes, and up to the floor of forces over the size of a block.
+/// turned back to the block as built, whose axes are given, as -m.sigma.m and -t.sigma.t times the thickness
+/// of the shell. They thus average over the block the friction on its beds and the pressure on its heads. They
+/// are zero for fixed blocks, for blocks without shell axes, and up to the floor of forces over the size of a
+/// block.
 std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
                                       const JointWrenches& joints, const std::vector<Wrench>& from_below,
                                       const std::vector<PointForce>& loads,
-                                      const std::vector<ShellAxes>& axes);
+                                      const std::vector<ShellAxes>& axes, const Poses& poses);
 
 /// Group number of every block; the blocks of one group move as one body. `poses`: of every block, from where
 /// it was built.
