@@ -63,7 +63,7 @@ double open_share(const ContactTable& contacts, const std::vector<int>& rows, co
   return joint.area > 0.0 ? open_area / joint.area : 0.0;
 }
 
-/// Sums the forces of the joint over its contact points, `rows` of the contacts.
+/// Sums the forces of the joint over its contact points, `rows` of the contacts, about the patch centroid.
 void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrench* joint) {
   const auto begin = rows.begin() + joint->contact_start;
   const auto end = begin + joint->num_contacts;
@@ -77,12 +77,10 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
   if (normal.norm() == 0.0) normal = contacts.normal[*begin];
   joint->patch = planar_hull(points, normal.normalized());
 
-  Vec3 weighted = Vec3::Zero();
   double damaged_area = 0.0;
   for (auto row = begin; row != end; ++row) {
     const double n = contacts.normal_force[*row];
     joint->normal_force += n;
-    weighted += n * (contacts.point[*row] - joint->patch.centroid);
     joint->area += contacts.area[*row];
     joint->centroid += contacts.area[*row] * contacts.point[*row];
     if (contacts.area[*row] > 0.0)
@@ -94,34 +92,51 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }
   joint->centroid = joint->area > 0.0 ? Vec3(joint->centroid / joint->area) : joint->patch.centroid;
-  joint->centre_of_pressure = joint->patch.centroid;
-  if (joint->normal_force != 0.0) joint->centre_of_pressure += weighted / joint->normal_force;
   joint->friction_use = friction_use(contacts, begin, end);
   if (joint->area > 0.0 && !contacts.damage.empty()) joint->damage = damaged_area / joint->area;
-  joint->wrench.point = joint->centre_of_pressure;
+  joint->wrench.point = joint->centre_of_pressure = joint->patch.centroid;
   for (auto row = begin; row != end; ++row)
     joint->wrench.add_force(contacts.point[*row], contacts.force[*row]);
   CUPOLA_ASSERT(joint->wrench.force.allFinite() && joint->wrench.moment.allFinite());
 }
 
-/// Fills in what follows from the direction and place of the joint's force, if it is not negligible.
-void measure(const Floor& floor, JointWrench* joint) {
+/// Moves the wrench to the centre of the normal forces. They have none where they cancel, as in pure bending.
+void find_centre_of_pressure(const ContactTable& contacts, const std::vector<int>& rows, const Floor& floor,
+                             JointWrench* joint) {
+  constexpr double kRounding = 1e-9;  // of the forces that cancel
+  Vec3 weighted = Vec3::Zero();
+  double sizes = 0.0;
+  for (int i = joint->contact_start; i < joint->contact_start + joint->num_contacts; ++i) {
+    const double n = contacts.normal_force[rows[i]];
+    weighted += n * (contacts.point[rows[i]] - joint->patch.centroid);
+    sizes += std::abs(n);
+  }
+  joint->normal_force = above(joint->normal_force, std::max(floor.force, kRounding * sizes));
+  if (joint->normal_force == 0.0) return;
+  joint->centre_of_pressure += weighted / joint->normal_force;
+  joint->wrench = moved_to(joint->wrench, joint->centre_of_pressure);
+}
+
+/// Fills in what follows from the direction and place of the joint's force, as far as it has them.
+void measure(const ContactTable& contacts, const std::vector<int>& rows, const Floor& floor,
+             JointWrench* joint) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   joint->negligible = floor.hides(joint->wrench.force);
   joint->opening = above(joint->opening, floor.length);
   joint->slip = above(joint->slip, floor.length);
+  joint->axis.point = joint->patch.centroid;
+  joint->eccentricity = joint->edge_distance = joint->kern = kNone;
   if (joint->negligible) {
-    joint->wrench = moved_to(joint->wrench, joint->patch.centroid);
-    joint->centre_of_pressure = joint->axis.point = joint->patch.centroid;
-    for (double* undefined : {&joint->eccentricity, &joint->edge_distance, &joint->kern, &joint->friction_use,
-                              &joint->couple_length})
-      *undefined = std::numeric_limits<double>::quiet_NaN();
+    joint->friction_use = joint->couple_length = kNone;
     return;
   }
-  const Eigen::Vector2d in_patch = joint->patch.coordinates(joint->centre_of_pressure);
-  joint->eccentricity = above(in_patch.norm(), floor.length);
-  joint->edge_distance = distance_to_outline(joint->patch, in_patch);
-  joint->kern = joint->normal_force < 0.0 ? std::numeric_limits<double>::quiet_NaN()
-                                          : above(kern_use(joint->patch, in_patch), floor.share);
+  find_centre_of_pressure(contacts, rows, floor, joint);
+  if (joint->normal_force != 0.0) {
+    const Eigen::Vector2d in_patch = joint->patch.coordinates(joint->centre_of_pressure);
+    joint->eccentricity = above(in_patch.norm(), floor.length);
+    joint->edge_distance = distance_to_outline(joint->patch, in_patch);
+    if (joint->normal_force > 0.0) joint->kern = above(kern_use(joint->patch, in_patch), floor.share);
+  }
   joint->friction_use = above(joint->friction_use, floor.share);
   joint->axis = central_axis(joint->wrench);
   joint->couple_length = couple_length(joint->wrench, floor);
@@ -152,7 +167,7 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
   out.floor = floor_of(largest, unbalanced, block_size(assembly));
   for (JointWrench& joint : out.wrenches) {
     joint.open_share = open_share(contacts, out.contacts, out.floor, joint);
-    measure(out.floor, &joint);
+    measure(contacts, out.contacts, out.floor, &joint);
     if (joint.kind != JointKind::bed && joint.kind != JointKind::base) continue;
     joint.upper = joint.block_b;
     joint.lower = joint.block_a;

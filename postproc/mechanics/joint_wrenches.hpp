@@ -14,6 +14,7 @@ namespace cupola {
 
 /// A joint of one frame, summed over its contact points. A negligible joint counts as unloaded: its centre of
 /// pressure is the centroid of the patch, and what follows from the direction or place of its force is NaN.
+/// Where only its normal forces cancel, so is what follows from their place.
 struct JointWrench : Joint {
   int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
   /// The upper block, whose course the joint carries. -1 for other kinds, and where the last course of an arch
@@ -29,7 +30,7 @@ struct JointWrench : Joint {
   bool negligible = false;                 ///< its force is not above the floor of the frame
   Vec3 centre_of_pressure = Vec3::Zero();  ///< m, of the normal forces; the patch centroid if unloaded
   double couple_length = 0.0;              ///< m, on the central axis
-  double normal_force = 0.0;               ///< N, sum over the points
+  double normal_force = 0.0;               ///< N, sum over the points; 0 where they cancel
   double eccentricity = 0.0;               ///< m, distance of the centre of pressure from the patch centroid
   double edge_distance = 0.0;              ///< m, distance of the centre of pressure from the outline
   double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern

@@ -156,7 +156,7 @@ std::optional<double> points_per_base_joint(const JointWrenches& joints) {
   return static_cast<double>(points) / count;
 }
 
-/// Numbers that interpret the forces of an equilibrium. Negligible joints have NaN, which fmax skips.
+/// Numbers that interpret the forces of an equilibrium. Joints without them have NaN, which fmax skips.
 void add_equilibrium(const Evaluation& e, PostSummary* s) {
   const auto raise = [](std::optional<double>* largest, double value) {
     *largest = std::fmax(largest->value_or(0.0), value);
@@ -174,7 +174,7 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     raise(&s->largest_friction_use, joint.friction_use);
     raise(&s->largest_pressure_Pa, joint.largest_pressure);
     if (!std::isnan(joint.strength_use)) raise(&s->largest_strength_use, joint.strength_use);
-    if (joint.upper < 0 || joint.negligible) continue;
+    if (joint.upper < 0 || std::isnan(joint.kern)) continue;
     kern += joint.normal_force * joint.kern;
     force += joint.normal_force;
   }

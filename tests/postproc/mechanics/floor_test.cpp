@@ -67,6 +67,21 @@ TEST(Floor, JointsBelowItHaveNoUtilisationAndCountInNoExtreme) {
 }
 
 // A slip of 8e-18 m is rounding: the floor of lengths is 1e-6 of a block.
+// The upper bed of two is pulled, and has no kern use; that of the lower one is 1.5.
+TEST(Floor, JointsWithoutKernUseCountInNoMean) {
+  const Assembly a = test::column(2);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.9, 0.4);
+  ContactTable& c = frame.contacts;
+  for (int i = 0; i < c.size(); ++i) {
+    if (c.joint[i] != 1) continue;
+    c.force[i] = -c.force[i];
+    c.normal_force[i] = -c.normal_force[i];
+  }
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  EXPECT_NEAR(post_summary(e).mean_kern_use.value(), 1.5, 1e-12) << "rounding";
+}
+
 TEST(Floor, SlipBelowItIsNoFinding) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);

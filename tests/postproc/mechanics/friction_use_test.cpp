@@ -76,6 +76,26 @@ TEST(CentreOfPressure, IsTheirsWhereNormalForcesPull) {
   EXPECT_TRUE(std::isnan(joint.kern)) << "of pressure only";
 }
 
+// Of a bed that only bends, the forces of its points cancel to rounding: 100 N on two, as much pull on the
+// others.
+TEST(CentreOfPressure, IsTheCentroidInPureBending) {
+  const Assembly a = test::column(1);
+  for (const double rest : {0.0, 1e-13, 1e-5}) {  // the last is below the floor of forces, 1e-6 of 60 N
+    ContactTable c = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4).contacts;
+    for (size_t i = 0; i < 4; ++i) {
+      c.normal_force[i] = (c.point[i].x() == 0.0 ? 100.0 : -100.0) + rest;
+      c.force[i] = Vec3(0, 15, c.normal_force[i]);
+    }
+    const JointWrench joint = joint_wrenches(a, c, shell_of(a, Vec3::UnitZ())).wrenches[0];
+    EXPECT_FALSE(joint.negligible) << "60 N of shear";
+    EXPECT_EQ(joint.centre_of_pressure, joint.patch.centroid);
+    EXPECT_NEAR(joint.wrench.moment.y(), 4 * 100.0 * 0.6, 1e-10) << "rounding of 240 N m";
+    EXPECT_EQ(joint.normal_force, 0.0);
+    for (const double undefined : {joint.eccentricity, joint.edge_distance, joint.kern})
+      EXPECT_TRUE(std::isnan(undefined)) << undefined;
+  }
+}
+
 // A limit leaves rounding in the open points of a hinge, here beside 2 x 100 N: half of the bed is open.
 TEST(OpenShare, CountsPointsUpToTheFloorAsOpen) {
   const Assembly a = test::column(1);
