@@ -19,11 +19,23 @@ struct Projection {
   std::vector<double> row(const Vec3& x) const { return {right.dot(x), up.dot(x)}; }
 };
 
-/// A vault about the z axis and imported blocks are seen obliquely from above, arches and walls in elevation.
+/// True of a vault about the z axis, of imported blocks and of arches that span several ways.
+bool is_seen_obliquely(const std::vector<Sheet>& sheets) {
+  using enum Sheet::ThrustLines;
+  if (sheets.empty() || sheets.back().thrust_lines == by_azimuth) return true;
+  constexpr double kOneWay = 0.99;  // cosine, of 8 degrees
+  return sheets.back().thrust_lines == one && std::ranges::any_of(sheets, [&](const Sheet& arch) {
+           return arch.thrust_lines == one &&
+                  std::abs(arch.towards(0.0).dot(sheets.back().towards(0.0))) < kOneWay;
+         });
+}
+
+/// Obliquely from above, or arches and walls in elevation.
 Projection projection_of(const Evaluation& e) {
-  const std::vector<Sheet>& sheets = e.assembly.sheets;
-  if (!sheets.empty() && sheets.back().thrust_lines != Sheet::ThrustLines::by_azimuth)
-    return {Vec3::UnitX(), Vec3::UnitZ(), -Vec3::UnitY()};
+  if (!is_seen_obliquely(e.assembly.sheets)) {
+    const Vec3 right = abscissa_of(e.shell, e.assembly.sheets.back()).direction;
+    return {right, Vec3::UnitZ(), right.cross(Vec3::UnitZ())};
+  }
   const double a = -60.0 / kDegrees, slant = 30.0 / kDegrees;  // seen from azimuth a and from above
   const Vec3 right(-std::sin(a), std::cos(a), 0.0);
   const Vec3 up(-std::sin(slant) * std::cos(a), -std::sin(slant) * std::sin(a), std::cos(slant));

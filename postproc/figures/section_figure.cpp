@@ -35,6 +35,8 @@ struct SectionForces {
 
 SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
   SectionForces out;
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
+  const Abscissa abscissa = sheets.empty() ? Abscissa() : abscissa_of(e.shell, sheets.back());
   double largest = 0.0, horizontal = 0.0;
   for (const BedResultant& r : section.resultants) {
     largest = std::max(largest, r.wrench.force.norm());
@@ -48,7 +50,7 @@ SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
     const Vec3 &x = r.point, &f = r.wrench.force;
     out.segments.push_back({x.x(), x.y(), out.scale * f.x(), out.scale * f.y()});
     (r.kind == BlockKind::herringbone ? out.norms_upright : out.norms)
-        .push_back({is_vault(e) ? r.azimuth * kDegrees : x.x(), out.unit.per_newton * f.norm()});
+        .push_back({is_vault(e) ? r.azimuth * kDegrees : abscissa.of(x), out.unit.per_newton * f.norm()});
   }
   for (Rows* rows : {&out.norms, &out.norms_upright}) std::sort(rows->begin(), rows->end());
   return out;
@@ -80,7 +82,9 @@ std::string scale_arrow(const SectionForces& forces) {
 }  // namespace
 
 Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
+  const std::vector<Sheet>& sheets = e.assembly.sheets;
   const bool vault = is_vault(e);
+  const bool wall = !sheets.empty() && sheets.back().thrust_lines == Sheet::ThrustLines::none;
   const SectionForces forces = forces_of(e, section);
   Figure f;
   f.name = fmt::format("section_{:g}m", section.height);
@@ -104,8 +108,10 @@ Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
     plots.push_back(fmt::format(
         "unset arrow 1\nunset label 1\nset size noratio\nset xlabel '{0}'\nset ylabel 'resultant of a block "
         "({1})'\nset yrange [0:*]\n{2}{3}\n",
-        vault ? "azimuth (deg)" : "x (m)", forces.unit.name,
-        vault ? "set xrange [-180:180]\nset xtics 45\n" : "", bars));
+        vault  ? "azimuth (deg)"
+        : wall ? "along the wall (m)"
+               : "x (m)",
+        forces.unit.name, vault ? "set xrange [-180:180]\nset xtics 45\n" : "", bars));
   f.commands += panels(panel_grid(vault ? 1 : 2, vault ? 2 : 1, {0.08, 0.97, 0.11, 0.95}, 0.11, 0.11), plots);
   return f;
 }

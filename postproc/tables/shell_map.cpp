@@ -35,33 +35,21 @@ const Sheet* sheet_of_wythe(const Evaluation& e, int wythe) {
   return nullptr;
 }
 
-/// A point in the frame of a sheet, or of the model if that is not turned.
-Vec3 in_frame(const Sheet& axis, const Vec3& point) {
-  return axis.turn == 0.0 ? point : axis.own(point);
-}
-
-/// Horizontal unit vector along the courses of a wall, in which the edges of its beds run, in the frame of its
-/// sheet: towards x, or y where it runs along y.
-Vec3 along_wall(const Evaluation& e, const Sheet& axis, const ShellMap& map) {
+/// Azimuth of the courses of a wall, in which the edges of its beds run, from its own x axis: towards that, or
+/// towards its y axis where it runs along it.
+double along_wall(const Shell& shell, const Sheet& wall) {
   constexpr double kRounding = 1e-6;  // rad
   double xx = 0.0, xy = 0.0, yy = 0.0;
-  for (int ring = map.first_ring; ring < map.num_rings; ++ring)
-    for (const BedFacet& f : e.shell.beds[ring]) {
-      if (!e.shell.wythes[f.block].contains(map.number)) continue;
-      const Vec3 edge = in_frame(axis, f.intrados_b) - in_frame(axis, f.intrados_a);
+  const int end = std::min(wall.first_ring + wall.num_rings, shell.num_rings());
+  for (int ring = wall.first_ring; ring < end; ++ring)
+    for (const BedFacet& f : shell.beds[ring]) {
+      const Vec3 edge = f.intrados_b - f.intrados_a;
       xx += edge.x() * edge.x();
       xy += edge.x() * edge.y();
       yy += edge.y() * edge.y();
     }
-  double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);  // of the principal axis, -90 to 90 degrees
-  if (angle < kRounding - 0.5 * std::numbers::pi) angle += std::numbers::pi;
-  return {std::cos(angle), std::sin(angle), 0.0};
-}
-
-/// The direction in which a map without azimuths measures, in the frame of its sheet.
-Vec3 abscissa_of(const Evaluation& e, const Sheet& axis, const ShellMap& map) {
-  if (map.arch) return Vec3::UnitY();
-  return axis.thrust_lines == Sheet::ThrustLines::none ? along_wall(e, axis, map) : Vec3::UnitX();
+  const double angle = std::remainder(0.5 * std::atan2(2.0 * xy, xx - yy) - wall.turn, std::numbers::pi);
+  return angle < kRounding - 0.5 * std::numbers::pi ? angle + std::numbers::pi : angle;
 }
 
 /// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe:
@@ -71,9 +59,9 @@ void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
     double from, to;
     double part;  // of the block's thickness
   };
-  const Vec3 abscissa = abscissa_of(e, axis, *out);
+  const Abscissa across = abscissa_of(e.shell, axis), along = out->arch ? across.turned() : across;
   const auto place = [&](const Vec3& point) {
-    return out->vault ? azimuth(axis.own(point)) : abscissa.dot(in_frame(axis, point));
+    return out->vault ? azimuth(axis.own(point)) : along.of(point);
   };
   std::map<std::pair<int, int>, Extent> extents;  // (block, ring)
   for (int ring = out->first_ring; ring < out->num_rings; ++ring) {
@@ -115,6 +103,12 @@ void read_boxes(const std::string& path, ShellMap* map) {
 }
 
 }  // namespace
+
+Abscissa abscissa_of(const Shell& shell, const Sheet& sheet) {
+  const bool wall = sheet.thrust_lines == Sheet::ThrustLines::none;
+  return {sheet.towards(wall ? along_wall(shell, sheet) : 0.0),
+          sheet.turn == 0.0 ? Vec3::Zero() : sheet.origin};
+}
 
 // clang-format off: one line per column.
 

@@ -18,6 +18,16 @@ struct ShellBox {
   double friction_use = 0.0, kern = 0.0;            ///< NaN without a loaded joint
 };
 
+/// Where a figure measures horizontally: along the courses of a wall, over the span of an arch. In the frame
+/// of the sheet if that is turned, else of the model.
+struct Abscissa {
+  Vec3 direction = Vec3::UnitX();  ///< horizontal unit vector, of the world
+  Vec3 from = Vec3::Zero();        ///< m
+  double of(const Vec3& point) const { return direction.dot(point - from); }
+  Abscissa turned() const { return {Vec3::UnitZ().cross(direction), from}; }  ///< towards its left
+};
+Abscissa abscissa_of(const Shell& shell, const Sheet& sheet);
+
 /// The unrolled shell, or one wythe of it: ring over azimuth, along a wall, or of an arch over y. In the frame
 /// of its sheet if that is turned or a vault, else of the model.
 struct ShellMap {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,30 +16,16 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
+#include "tests/postproc/figures/figure_data.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::figures_test {
 namespace {
 
+using test::data_of;
 using test::kGravity;
 
 const double kBlockWeight = 0.48 * 1800.0 * kGravity;
-
-/// Rows of a data block of a figure, without the blank ones.
-std::vector<std::vector<double>> data_of(const Figure& figure, const std::string& name) {
-  std::vector<std::vector<double>> rows;
-  const std::string head = "$" + name + " << EOD\n";
-  const size_t start = figure.commands.find(head);
-  if (start == std::string::npos) return rows;
-  std::istringstream lines(figure.commands.substr(start + head.size()));
-  for (std::string line; std::getline(lines, line) && line != "EOD";) {
-    std::istringstream numbers(line);
-    std::vector<double> row;
-    for (std::string number; numbers >> number;) row.push_back(std::stod(number));
-    if (!row.empty()) rows.push_back(row);
-  }
-  return rows;
-}
 
 TEST(BedResultants, CarryTheLoadAboveTheBedWhereItActs) {
   const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
@@ -68,26 +53,6 @@ TEST(BedResultants, UprightBlockOfAWallCountsWithTheWrenchAtItsFoot) {
   EXPECT_NEAR(e.sections[0].resultants[0].point.z(), 0.5, 1e-12) << "at its foot";
   EXPECT_EQ(data_of(levels_figure(e), "upright").size(), 1u);
   EXPECT_EQ(data_of(levels_figure(e), "flat").size(), 1u);
-}
-
-TEST(LevelsFigure, DrawsSegmentsAndScaleBarToOneScale) {
-  const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
-  const Figure figure = levels_figure(e);
-  const auto flat = data_of(figure, "flat"), measure = data_of(figure, "measure");
-  ASSERT_EQ(flat.size(), 1u);
-  ASSERT_EQ(measure.size(), 1u);
-  EXPECT_TRUE(data_of(figure, "upright").empty());
-  // A wall is seen along y: the segment starts at (x, z) and points straight up.
-  EXPECT_NEAR(flat[0][0], 0.9, 1e-8);
-  EXPECT_NEAR(flat[0][1], 1.0, 1e-8);
-  EXPECT_NEAR(flat[0][2], 0.0, 1e-8);
-  const double metres_per_newton = flat[0][3] / (31.0 * kBlockWeight);
-  EXPECT_NEAR(metres_per_newton, segment_scale(e.assembly, 31.0 * kBlockWeight), 1e-8 * metres_per_newton);
-  // 262.8 kN are shown in MN; the scale bar is the largest round force below, 0.2 MN.
-  EXPECT_NEAR(measure[0][3], 2e5 * metres_per_newton, 1e-8);
-  EXPECT_NE(figure.commands.find("'0.2 MN'"), std::string::npos);
-  // Faces of the three free blocks: five rows each, since outlines are closed.
-  EXPECT_EQ(data_of(figure, "outlines").size(), 15u);
 }
 
 // Two blocks, one of which carries nothing: grey, with a legend, and outside the colour scale.
@@ -386,18 +351,6 @@ TEST(RingFigure, HasALinePerHaunch) {
   EXPECT_NE(commands.find("\n0 0 0 0 \n1 0 0 0 \n2 0 0 0 \n\n2 0 0 0 \n1.5 0 0 0 \n0.5 0 0 0 \n"),
             std::string::npos)
       << commands;
-}
-
-TEST(SectionFigure, StatesScaleAndSum) {
-  const Evaluation e = test::column_evaluation(0.9, 0.3, 10.0);
-  const Figure figure = section_figure(e, e.sections[0]);
-  const auto norms = data_of(figure, "norms");
-  ASSERT_EQ(norms.size(), 1u);
-  EXPECT_NEAR(norms[0][0], 0.9, 1e-8);
-  EXPECT_NEAR(1e6 * norms[0][1], 31.0 * kBlockWeight, 1e-8 * 31.0 * kBlockWeight);
-  EXPECT_NE(figure.caption.find("nearest course 2, on the part above"), std::string::npos);
-  EXPECT_NE(figure.caption.find(fmt::format("add up to {:.5g} MN", 31e-6 * kBlockWeight)), std::string::npos)
-      << figure.caption;
 }
 
 }  // namespace
