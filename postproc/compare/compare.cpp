@@ -121,8 +121,10 @@ std::vector<Figure> overlay_figures(const std::vector<std::string>& folders,
       {"rings", "largest_friction_use", 100.0, "Largest friction use of a bed (%)",
        "Friction utilisation of the beds"},
       {"rings", "largest_kern_use", 1.0, "Largest kern use of a bed", "Eccentricity of the bed forces"}};
-  overlays.push_back({"stages", "least_stands", 1.0, "Least friction, or cohesion (Pa), of fresh mortar",
-                      "Construction, stage by stage"});
+  for (const auto& [column, scale, property] :
+       {std::tuple{"least_stands", 1.0, "friction"}, {"least_stands_Pa", 1e-3, "cohesion (kPa)"}})
+    overlays.push_back({"stages", column, scale, fmt::format("Least {} of fresh mortar", property),
+                        "Construction, stage by stage"});
   for (const std::string& table : common_files(folders, "thrust_", ".csv")) {
     const std::string name = table.substr(7);
     overlays.push_back({table, "r_N", 1e-6, "Resultant (MN)", "Resultant along the meridian " + name});

@@ -32,5 +32,24 @@ TEST(Compare, GraphsOverTheHeightShowCoursesBelowZero) {
   }
 }
 
+// Constructions whose fresh mortar needs cohesion, up to 2 and 3 kPa, and friction.
+TEST(Compare, GraphsShowWhatStagesNeed) {
+  for (const auto& [column, scale] :
+       {std::pair<std::string, double>{"least_stands_Pa", 1e3}, {"least_stands", 0.1}}) {
+    std::vector<std::string> folders;
+    for (const double most : {2.0, 3.0}) {
+      folders.push_back(test::fresh_folder("run" + std::to_string(folders.size())));
+      write_text_atomically(folders.back() + "/summary.json",
+                            post_summary_json(test::column_evaluation(0.6, 0.4)));
+      write_text_atomically(folders.back() + "/stages.csv",
+                            "height_m," + column + "\n0.5,0\n1.5," + std::to_string(scale * most) + "\n");
+    }
+    const std::string page = test::fresh_folder("page");
+    compare(folders, page, true);
+    const std::string figure = read_text(page + "/figures/stages_" + column + ".gp");
+    EXPECT_NE(figure.find(scale > 1.0 ? "\n1.5 3 " : "\n1.5 0.3 "), std::string::npos) << figure;
+  }
+}
+
 }  // namespace
 }  // namespace cupola::compare_test
