@@ -112,7 +112,7 @@ Figure force_map(const ShellMap& map, const MapScales& scales) {
       "force is negligible.",
       map.vault || map.arch ? "unrolled " : "", mapped_text(map),
       map.vault  ? ""
-      : map.arch ? " from the left springing (course 0) to the right"
+      : map.arch ? " from the right springing (course 0) to the left"
                  : " from the front",
       scales.hoop > 0.0 ? fmt::format("; {} tension is orange and has dots", across) : "");
   std::vector<std::string> panels;

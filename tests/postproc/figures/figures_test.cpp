@@ -340,6 +340,16 @@ TEST(Figures, AreLeftOutWhereEverythingIsNegligible) {
   EXPECT_NE(force_map(map, scales).commands.find("vertical force"), std::string::npos);
 }
 
+// Course 0 of an arch stands on the support at +x, which other figures show on the right.
+TEST(ShellMaps, AnArchBeginsOnTheRight) {
+  ShellMap map{.num_rings = 1, .boxes = {{0, 0, 0.0, 1.0, 4e3, 0.0, 0.5, 1.5}}, .arch = true};
+  MapScales scales;
+  scales.include(map);
+  EXPECT_TRUE(force_map(map, scales)
+                  .caption.starts_with("The unrolled arch from the right springing (course 0) to the left."))
+      << force_map(map, scales).caption;
+}
+
 // Courses of an arch from one springing to the other: a line up each haunch, which meet at the crown.
 TEST(RingFigure, HasALinePerHaunch) {
   Evaluation e = test::column_evaluation(0.9, 0.4);
