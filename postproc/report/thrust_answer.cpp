@@ -85,9 +85,9 @@ double length_of(const Evaluation& e, const Sheet& sheet, const std::vector<Reac
   return std::max(high - low, 0.0);
 }
 
-/// "14.1 kN/m over 5 m of support"; "" where the length is unknown.
+/// "14.1 kN/m over 5 m of support"; "" where the thrust is negligible or the length unknown.
 std::string per_metre(double thrust, double length) {
-  if (!(length > 0.0)) return "";
+  if (thrust == 0.0 || !(length > 0.0)) return "";
   return fmt::format("{}/m over {} of support", force_text(thrust / length), length_text(length));
 }
 
@@ -246,7 +246,9 @@ std::vector<std::string> thrusts_of_others(const Evaluation& e, const std::vecto
 }
 
 std::string share_of_weight(const Evaluation& e, double thrust) {
-  return e.summary.weight_N > 0.0 ? fmt::format("{:.3g} of the weight", thrust / e.summary.weight_N) : "";
+  return thrust != 0.0 && e.summary.weight_N > 0.0
+             ? fmt::format("{:.3g} of the weight", thrust / e.summary.weight_N)
+             : "";
 }
 
 /// How the thrust of one equilibrium depends on what is not certain.

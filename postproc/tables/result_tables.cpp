@@ -53,13 +53,14 @@ double spread_of(const Table& table, size_t column) {
   return high > low ? high - low : kUnknown;
 }
 
-/// Gives the columns of forces the floor of the frame, and those of moments that times the size of a block;
-/// those of heights their spread.
+/// Gives the columns of forces the floor of the frame, those of moments that times the size of a block, those
+/// of forces per metre that over it; those of heights their spread.
 void set_floors(double force, double size, Table* table) {
   for (size_t i = 0; i < table->columns.size(); ++i) {
     Table::Column& column = table->columns[i];
     if (column.unit == "N") column.floor = force;
     if (column.unit == "N m") column.floor = force * size;
+    if (column.unit == "N/m" && size > 0.0) column.floor = force / size;
     if (column.key == "height_m") column.spread = spread_of(*table, i);
   }
 }

@@ -32,6 +32,16 @@ TEST(Thrust, OfStonesWithoutCoursesIsTheSumOverTheSupports) {
       << answer->detail;
 }
 
+// Supports under an upright drum take no thrust: rounding per metre, or over the weight, is none.
+TEST(Thrust, ThatIsNegligibleHasNoDetails) {
+  Evaluation e = stones(Sheet::ThrustLines::radial);
+  for (Reaction& r : e.reactions) r.outward = 0.0;
+  const auto answer = thrust_answer(e);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->value, "negligible");
+  EXPECT_EQ(answer->detail.find("of the weight"), std::string::npos) << answer->detail;
+}
+
 // The stiffness of the joints chose nothing where a limit without a critical value shows a state that
 // balances.
 TEST(Thrust, OfAStateOfAConicSolverDependsOnNoStiffness) {

@@ -9,6 +9,7 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/mechanics/joint_wrenches.hpp"
 #include "postproc/tables/post_summary.hpp"
+#include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::floor_test {
@@ -66,7 +67,6 @@ TEST(Floor, JointsBelowItHaveNoUtilisationAndCountInNoExtreme) {
   }
 }
 
-// A slip of 8e-18 m is rounding: the floor of lengths is 1e-6 of a block.
 // The upper bed of two is pulled, and has no kern use; that of the lower one is 1.5.
 TEST(Floor, JointsWithoutKernUseCountInNoMean) {
   const Assembly a = test::column(2);
@@ -82,6 +82,7 @@ TEST(Floor, JointsWithoutKernUseCountInNoMean) {
   EXPECT_NEAR(post_summary(e).mean_kern_use.value(), 1.5, 1e-12) << "rounding";
 }
 
+// A slip of 8e-18 m is rounding: the floor of lengths is 1e-6 of a block.
 TEST(Floor, SlipBelowItIsNoFinding) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
@@ -98,6 +99,20 @@ TEST(Floor, SlipBelowItIsNoFinding) {
   EXPECT_EQ(largest, 1e-5);
   EXPECT_EQ(normal_force_text(-5664.0), "a pull of 5.664 kN");
   EXPECT_EQ(normal_force_text(5664.0), "a normal force of 5.664 kN");
+}
+
+// Forces per metre are negligible where those on a metre of a block of that size are.
+TEST(Floor, OfForcesPerMetreIsThatOfForcesOverTheSizeOfABlock) {
+  const Evaluation e = test::column_evaluation(0.6, 0.4);
+  int found = 0;
+  visit_tables(e, [&](const Table& table) {
+    for (const Table::Column& column : table.columns) {
+      if (column.unit != "N/m") continue;
+      ++found;
+      EXPECT_DOUBLE_EQ(column.floor, e.last.joints.floor.force / block_size(e.assembly)) << column.key;
+    }
+  });
+  EXPECT_EQ(found, 6) << "outwards and down on supports, two each of the map and of blocks";
 }
 
 // The floor follows the error of the run: an equilibrium that leaves 1e-3 of a block's weight unbalanced.
