@@ -72,6 +72,7 @@ struct Evaluation {
   Assembly assembly;  ///< with the thickness of the stable end, if a limit analysis varies it
   Summary summary;
   std::vector<double> times;  ///< s, of all frames; their numbers where the times do not increase
+  /// Against gravity, as pictures show it; vertical parts of forces are along z.
   Vec3 up = Vec3::UnitZ();
   Loads acting;                   ///< of the case, at the stable end of a limit analysis
   std::vector<PointForce> loads;  ///< of `acting`, at their full values

@@ -26,7 +26,7 @@ struct Page {
   std::vector<double> row(const Vec3& x) const { return {right.dot(x), up.dot(x)}; }
 };
 
-std::string caption_of(const Evaluation& e, const PlaneCut& cut, double largest, const ForceUnit& unit) {
+std::string caption_of(const PlaneCut& cut, double largest, const ForceUnit& unit) {
   const Vec3& f = cut.across.force;
   const double through = f.dot(cut.normal), along = (f - through * cut.normal).norm();
   const ForceUnit sum = force_unit(f.norm());
@@ -41,9 +41,9 @@ std::string caption_of(const Evaluation& e, const PlaneCut& cut, double largest,
   const ForceUnit load = force_unit(cut.load_beyond.norm());
   return text +
          fmt::format(
-             " Together with the supports beyond, they balance the load beyond of {:.5g} {} to a relative "
-             "difference of {:.1e}.",
-             load.per_newton * cut.load_beyond.dot(-e.up), load.name, cut.relative_difference);
+             " Together with the supports beyond, they balance the load beyond, of which {:.5g} {} act "
+             "downwards, to a relative difference of {:.1e}.",
+             load.per_newton * -cut.load_beyond.z(), load.name, cut.relative_difference);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ Figure plane_figure(const Evaluation& e, const PlaneCut& cut) {
   Figure f;
   f.name = "cut_" + cut.name;
   f.title = "Cut " + cut.name;
-  f.caption = caption_of(e, cut, largest, force_unit(largest));
+  f.caption = caption_of(cut, largest, force_unit(largest));
   f.width = 1000;
   f.height = 700;
   f.commands = plot_style() + data_block("outlines", outlines) + data_block("presses", presses) +

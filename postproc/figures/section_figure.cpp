@@ -41,7 +41,7 @@ SectionForces forces_of(const Evaluation& e, const SectionEvaluation& section) {
   for (const BedResultant& r : section.resultants) {
     largest = std::max(largest, r.wrench.force.norm());
     horizontal = std::max(horizontal, r.wrench.force.head<2>().norm());
-    out.vertical += r.wrench.force.dot(e.up);
+    out.vertical += r.wrench.force.z();
   }
   out.scale = segment_scale(e.assembly, horizontal);
   out.sample = horizontal > 0.0 ? round_down(horizontal) : 0.0;

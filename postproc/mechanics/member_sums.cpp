@@ -13,7 +13,6 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
   const size_t M = assembly.members.size();
   if (M == 0) return {};
   const double g = gravity.norm();
-  const Vec3 up = g > 0.0 ? Vec3(-gravity / g) : Vec3(Vec3::UnitZ());
   int num_rings = 0;
   for (const Block& block : assembly.blocks) num_rings = std::max(num_rings, ring_above_support(block) + 1);
   std::vector<MemberSum> sums(M * static_cast<size_t>(num_rings));
@@ -36,7 +35,7 @@ std::vector<MemberSum> member_sums(const Assembly& assembly, const JointWrenches
     const int top = std::max(ring_a, ring_b), base = assembly.stack_of(top).first;
     for (int k = std::max(std::min(ring_a, ring_b) + 1, base); k <= top; ++k) {
       MemberSum& sum = at(k, assembly.blocks[upper].member);
-      sum.vertical_force += force.dot(up);
+      sum.vertical_force += force.z();
       sum.outward_force -= force.dot(assembly.outward(k, joint.centroid));
     }
   }

@@ -24,8 +24,7 @@ struct Collected {
 using Sums = std::map<std::pair<int, WytheRange>, Collected>;  // by ring and wythes
 
 /// Adds a joint to the cuts below all rings of the upper stack that it crosses.
-void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheRange& wythes, const Vec3& up,
-                Sums* sums) {
+void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheRange& wythes, Sums* sums) {
   const int a = ring_above_support(assembly.blocks[joint.block_a]);
   const int b = ring_above_support(assembly.blocks[joint.block_b]);
   if (a == b) return;
@@ -33,7 +32,7 @@ void add_forces(const Assembly& assembly, const JointWrench& joint, const WytheR
   const int top = std::max(a, b);
   for (int k = std::max(std::min(a, b) + 1, assembly.stack_of(top).first); k <= top; ++k) {
     WytheSum& sum = (*sums)[{k, wythes}].sum;
-    sum.vertical_force += force.dot(up);
+    sum.vertical_force += force.z();
     sum.outward_force -= force.dot(assembly.outward(k, joint.centroid));
   }
 }
@@ -63,13 +62,13 @@ WytheSum finished(const Collected& at, const Shell& shell, double total, const F
 }  // namespace
 
 std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, const JointWrenches& joints,
-                                 const ContactTable& contacts, const Vec3& up, const Poses& poses) {
+                                 const ContactTable& contacts, const Poses& poses) {
   std::vector<WytheSum> out;
   if (assembly.members.empty() || shell.num_rings() == 0) return out;
   Sums sums;
   for (const JointWrench& joint : joints.wrenches) {
     const WytheRange wythes = wythes_of(assembly, shell, joint);
-    add_forces(assembly, joint, wythes, up, &sums);
+    add_forces(assembly, joint, wythes, &sums);
     const int carried = joint.carried;
     if (carried < 0 || assembly.blocks[carried].fixed) continue;
     const int ring = ring_above_support(assembly.blocks[carried]);

@@ -29,6 +29,6 @@ struct WytheSum {
 
 /// Ring by ring from the base upwards, in each the wythes from the inside; empty for a shell without wythes.
 std::vector<WytheSum> wythe_sums(const Assembly& assembly, const Shell& shell, const JointWrenches& joints,
-                                 const ContactTable& contacts, const Vec3& up, const Poses& poses = {});
+                                 const ContactTable& contacts, const Poses& poses = {});
 
 }  // namespace cupola

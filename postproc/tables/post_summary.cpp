@@ -96,7 +96,7 @@ Json rings_json(const Evaluation& e) {
     if (cut.blocks == 0) continue;
     Json& ring = rings.emplace_back();
     for (const char* key : kRingSummaryKeys)
-      ring[key] = to_json(column_named(ring_columns(), key).value({cut, e.up}));
+      ring[key] = to_json(column_named(ring_columns(), key).value(cut));
   }
   return rings;
 }

@@ -62,36 +62,30 @@ const Columns<ForceRange>& range_columns() {
   return columns;
 }
 
-const Columns<RingRow>& ring_columns() {
-  using R = RingRow;
+const Columns<RingSum>& ring_columns() {
+  using R = RingSum;
   static const Columns<R> columns{
-      {"ring", "", "the cut runs below this ring", [](const R& r) { return r.cut.ring; }},
-      {"height_m", "m", "mean height of the ring's bed joints, of its bed where it has none",
-       [](const R& r) { return r.cut.height; }},
-      {"blocks", "", "blocks that begin in the ring", [](const R& r) { return r.cut.blocks; }},
+      {"ring", "", "the cut runs below this ring", &R::ring},
+      {"height_m", "m", "mean height of the ring's bed joints, of its bed where it has none", &R::height},
+      {"blocks", "", "blocks that begin in the ring", &R::blocks},
       {"joint_force_{}_N", "N", "sum of the forces of joints and ties on the blocks above the cut",
-       [](const R& r) { return r.cut.joint_force; }},
-      {"load_above_N", "N", "weight and applied loads above the cut, positive downwards",
-       [](const R& r) { return r.cut.load_above.dot(-r.up); }},
+       &R::joint_force},
+      {"load_above_N", "N", "vertical part of weight and applied loads above the cut, positive downwards",
+       [](const R& r) { return -r.load_above.z(); }},
       {"relative_difference", "", "norm of joint force plus load, over the norm of the load",
-       [](const R& r) { return r.cut.relative_difference; }},
-      {"mean_resultant_N", "N", "mean of the blocks' resultants",
-       [](const R& r) { return r.cut.mean_resultant; }},
-      {"cv_resultant", "", "coefficient of variation of the blocks' resultants",
-       [](const R& r) { return r.cut.cv_resultant; }},
-      {"cv_pressure", "", "coefficient of variation of the blocks' bed pressures",
-       [](const R& r) { return r.cut.cv_pressure; }},
+       &R::relative_difference},
+      {"mean_resultant_N", "N", "mean of the blocks' resultants", &R::mean_resultant},
+      {"cv_resultant", "", "coefficient of variation of the blocks' resultants", &R::cv_resultant},
+      {"cv_pressure", "", "coefficient of variation of the blocks' bed pressures", &R::cv_pressure},
       {"radial_thrust_N", "N",
        "sum of the forces on the blocks below the ring, and of the ring on supports, along the outward "
        "direction at the centroid of each joint; empty: no vault",
-       [](const R& r) { return r.cut.radial_thrust; }},
+       &R::radial_thrust},
       {"largest_couple_length_m", "m", "largest couple length of a block's wrench",
-       [](const R& r) { return r.cut.largest_couple_length; }},
-      {"largest_friction_use", "", "largest friction utilisation of a bed joint",
-       [](const R& r) { return r.cut.largest_friction_use; }},
+       &R::largest_couple_length},
+      {"largest_friction_use", "", "largest friction utilisation of a bed joint", &R::largest_friction_use},
       {"largest_kern_use", "",
-       "largest kern utilisation of a bed joint; above 1: part of the joint is unloaded",
-       [](const R& r) { return r.cut.largest_kern; }},
+       "largest kern utilisation of a bed joint; above 1: part of the joint is unloaded", &R::largest_kern},
   };
   return columns;
 }

@@ -12,12 +12,6 @@ namespace cupola {
 // The columns of all results, one list per subject. To add a column, add one line to a list in
 // result_columns.cpp; to put it into a mesh file too, add its key to the file's list below.
 
-/// A ring cut, with the direction against which loads count.
-struct RingRow {
-  const RingSum& cut;
-  Vec3 up;
-};
-
 /// A block of one frame.
 struct BlockRow {
   const Block& block;
@@ -92,7 +86,7 @@ struct SectionCell {
 };
 
 const Columns<ForceRange>& range_columns();
-const Columns<RingRow>& ring_columns();
+const Columns<RingSum>& ring_columns();
 const Columns<JointWrench>& joint_columns();
 const Columns<BlockRow>& block_columns();
 const Columns<MemberRow>& member_columns();

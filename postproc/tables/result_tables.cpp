@@ -80,9 +80,8 @@ Table range_table(const std::vector<ForceRange>& ranges) {
 }
 
 Table ring_table(const Evaluation& e) {
-  std::vector<RingRow> rows;
-  for (const RingSum& cut : e.rings)
-    if (cut.blocks > 0) rows.push_back({cut, e.up});
+  std::vector<RingSum> rows = e.rings;
+  std::erase_if(rows, [](const RingSum& cut) { return cut.blocks == 0; });
   return make_table("rings", "Ring cuts: joint forces below each ring against the load above it",
                     ring_columns(), rows);
 }

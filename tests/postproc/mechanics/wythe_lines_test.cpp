@@ -212,8 +212,7 @@ TEST(WytheLines, AddUpToTheWholeThickness) {
 // Per slot: 1000 N inside, 400 N outside, at 0.25 and 0.8 of the wythe.
 TEST(WytheSums, AddUpToTheRingAndKnowWhereTheyAct) {
   const Scene scene;
-  const std::vector<WytheSum> sums =
-      wythe_sums(scene.assembly, scene.shell, scene.joints, scene.contacts, Vec3::UnitZ());
+  const std::vector<WytheSum> sums = wythe_sums(scene.assembly, scene.shell, scene.joints, scene.contacts);
   ASSERT_EQ(sums.size(), 7u) << "two per ring; ring 2 stands on bonders";
   const auto sum = [&](size_t i, int ring, WytheRange wythes) {
     EXPECT_EQ(sums[i].ring, ring);

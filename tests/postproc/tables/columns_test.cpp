@@ -1,7 +1,11 @@
+#include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "postproc/evaluation/quantity_text.hpp"
+#include "postproc/figures/figures.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/result_columns.hpp"
 #include "postproc/tables/result_tables.hpp"
@@ -61,6 +65,35 @@ TEST(Columns, TablesAndMeshesHoldTheSameValues) {
     for (size_t i = 0; i < 3; ++i) EXPECT_EQ(std::get<double>(table.rows[j][force_x + i]), forces[3 * j + i]);
     EXPECT_EQ(std::get<std::string>(table.rows[j][2]), to_string(static_cast<JointKind>(kinds[j])));
   }
+}
+
+// Gravity that leans: loads and forces beside columns along z are along z, too.
+TEST(Columns, VerticalIsAlongZ) {
+  const Assembly a = test::column_with_wythes();
+  Case scene = test::column_case();
+  scene.loads.gravity = Vec3(2.0, 0.0, -test::kGravity);
+  scene.postproc.planes = {{"middle", {0.0, 0.0, 0.8}, Vec3::UnitZ()}};
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  for (Vec3& force : frame.contacts.force) force.x() = -2.0 / test::kGravity * force.z();
+  const Evaluation e =
+      test::evaluated(a, {frame}, test::column_summary(a), scene, test::fresh_folder("results"));
+  const double weight = free_weight(a, test::kGravity), rounding = 1e-12 * weight;
+  const auto found = [](const Table& table, const std::string& key, size_t row) {
+    const auto column = std::ranges::find(table.columns, key, &Table::Column::key) - table.columns.begin();
+    return std::get<double>(table.rows.at(row).at(static_cast<size_t>(column)));
+  };
+  EXPECT_NEAR(found(ring_table(e), "load_above_N", 0), weight, rounding);
+  EXPECT_NEAR(found(ring_table(e), "joint_force_z_N", 0), weight, rounding);
+  EXPECT_NEAR(found(wythe_table(e), "vertical_force_N", 0), weight, rounding);
+  EXPECT_NEAR(found(member_table(e), "vertical_force_N", 0), weight, rounding);
+  const ForceUnit unit = force_unit(weight / 3.0);
+  EXPECT_NE(section_figure(e, e.sections.at(0))
+                .caption.find(fmt::format("add up to {:.5g} {}.", unit.per_newton * weight / 3.0, unit.name)),
+            std::string::npos);
+  EXPECT_NE(plane_figure(e, e.planes.at(0))
+                .caption.find(fmt::format("{:.5g} {}", unit.per_newton * weight / 3.0, unit.name)),
+            std::string::npos)
+      << plane_figure(e, e.planes[0]).caption;
 }
 
 // Readers tell integers from doubles, also where nothing has cracked.
