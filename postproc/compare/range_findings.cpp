@@ -51,7 +51,7 @@ std::vector<std::string> range_findings(const std::vector<PostSummary>& runs,
     }
     if (ranges.size() < 2) continue;
     constexpr double kEqual = 1e-3;  // relative difference up to which widths are called equal
-    if (next - narrowest <= kEqual * next) where.clear();
+    if (std::isfinite(next) && next - narrowest <= kEqual * next) where.clear();
     sentences.push_back(fmt::format("The range of the {} over all admissible states is {}{}.",
                                     range_name(quantity), fmt::join(ranges, ", "),
                                     where.empty() ? "" : fmt::format(": narrowest in {}", where)));

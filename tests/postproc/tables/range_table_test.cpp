@@ -147,6 +147,9 @@ TEST(RangeTable, ComparisonNamesTheNarrowestRange) {
             "narrowest in B.");
   b.ranges[0] = a.ranges[0];
   EXPECT_EQ(range_findings({a, b}, {"A", "B"})[0].find("narrowest"), std::string::npos) << "both are equal";
+  b.ranges[0].max = {RangeOutcome::unbounded, {}, {}, 4};
+  EXPECT_TRUE(range_findings({a, b}, {"A", "B"})[0].ends_with("1 to ∞ MN in B: narrowest in A."))
+      << range_findings({a, b}, {"A", "B"})[0];
   const Table table = comparison_table({a, b, c});
   EXPECT_EQ(table.columns.back().key, "share_of_the_ribs_max");
   EXPECT_EQ(table.rows[1].back(), Table::Cell(0.7));
