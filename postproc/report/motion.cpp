@@ -74,7 +74,7 @@ void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& his
     out->push_back({fmt::format("Moved more than {}", length_text(threshold)),
                     fmt::format("at {:.4g} s", first->time), "first block to do so"});
   if (!history.empty())
-    out->push_back({"Fastest block", fmt::format("{:.3g} m/s", history.back().max_speed),
+    out->push_back({"Fastest point", fmt::format("{:.3g} m/s", history.back().max_speed),
                     fmt::format("at the end{}", relative_to_ground(e))});
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/figures/figures.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
@@ -55,6 +56,21 @@ TEST(ReturnedMotion, RestSaysHowFarItWent) {
                   "at rest after 12 s of motion, in which a block moves by up to 154 mm relative to the "
                   "ground (at 3.05 s; 50 mm at the end)"))
       << reason;
+}
+
+// Histories have the speed of the fastest point and the displacement of the farthest centroid.
+TEST(ReturnedMotion, SaysWhatMoves) {
+  const Evaluation e = returned(Status::collapsed, 0.1);
+  const std::vector<HistoryRow> history{{.time = 1.0, .max_speed = 0.2},
+                                        {.time = 12.0, .max_speed = 0.01714}};
+  const auto numbers = motion_numbers(e, history);
+  EXPECT_TRUE(std::ranges::any_of(numbers, [](const KeyNumber& number) {
+    return number.name == "Fastest point" && number.value == "0.0171 m/s";
+  }));
+  EXPECT_TRUE(
+      history_figure(e, history)
+          .caption.starts_with("Largest displacement of a centroid and speed of a point of the blocks"))
+      << history_figure(e, history).caption;
 }
 
 // What fell and lies still is not said to stand under a larger threshold.
