@@ -71,6 +71,16 @@ bool limits_pressure(const Joints& joints) {
          std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return limits(group.law); });
 }
 
+/// The laws that joints have in the run: in stages of construction fresh mortar's, too.
+Joints laws_of(const Evaluation& e) {
+  Joints joints = e.scene.joints;
+  if (e.summary.analysis != AnalysisType::staged) return joints;
+  const StagedConstruction& staged = e.scene.analysis.staged;
+  if (staged.curing.empty()) joints.rings.push_back({.law = staged.fresh.law()});
+  for (const CuringMortar& row : staged.curing) joints.rings.push_back({.law = row.law});
+  return joints;
+}
+
 /// True if the run shows one equilibrium under the loads of its case: no limit, range or stage.
 bool shows_the_case(const Evaluation& e) {
   return at_rest(e) && !e.summary.critical && e.summary.ranges.empty() && !is_stage(e.last.frame.role);
@@ -131,8 +141,11 @@ std::string assumptions(const Evaluation& e) {
   if (!loads.empty())
     given.back() += fmt::format(" (weight of {}, {}{})", weight_text(e), loads,
                                 critical && !is_stage(e.last.frame.role) ? " at the critical value" : "");
-  if (!critical || critical->parameter != "friction") given.push_back(friction_text(e.scene.joints));
-  if (e.scene.joints.have_strength()) given.push_back("the strength of the joints");
+  const Joints laws = laws_of(e);
+  if (!critical || critical->parameter != "friction") given.push_back(friction_text(laws));
+  if (laws.have_strength())
+    given.emplace_back(e.scene.joints.have_strength() ? "the strength of the joints"
+                                                      : "the strength of fresh mortar");
   if (!moved_text(e).empty()) given.push_back("the motion of the supports");
   if (!limits_pressure(e.scene.joints)) given.push_back("no crushing (not checked)");
   return fmt::format("{}", fmt::join(given, ", "));
@@ -259,9 +272,9 @@ std::string certain_sentence(const Evaluation& e) {
                    : !moved_text(e).empty() ? "after the motion of the supports "
                                             : "";
   const std::optional<KeyNumber> crack = crack_answer(e);
-  const std::string how = e.last.joints.wrenches.empty()   ? fmt::format("in the {}", carriers(e))
-                          : e.scene.joints.have_strength() ? "within the limits of the joints"
-                                                           : "by friction and without tension";
+  const std::string how = e.last.joints.wrenches.empty() ? fmt::format("in the {}", carriers(e))
+                          : laws_of(e).have_strength()   ? "within the limits of the joints"
+                                                         : "by friction and without tension";
   const char* stiffness = thrust_answer(e) || (crack && crack->value != "none")
                               ? ", and the stiffness of the joints, on which thrust and cracks depend"
                               : "";

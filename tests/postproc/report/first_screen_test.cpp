@@ -73,6 +73,31 @@ TEST(FirstScreen, AConstructionWithoutALeastPropertySaysWhy) {
             "unknown");
 }
 
+// Of a dry wall on fresh mortar: what holds its stages is not the law of the case's joints.
+TEST(FirstScreen, AConstructionAssumesItsFreshMortar) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::staged;
+  e.last.frame.role = FrameRole::stage;
+  e.scene.joints.friction = 0.6;
+  StagedConstruction& staged = e.scene.analysis.staged;
+  staged.fresh.cohesion = 5e4;
+  staged.fresh.tension = 4e4;
+  const auto expect = [&e](const char* how, const char* laws) {
+    const std::string text = certain_sentence(e);
+    EXPECT_NE(text.find(how), std::string::npos) << text;
+    EXPECT_NE(text.find(laws), std::string::npos) << text;
+  };
+  expect("balance the loads within the limits of the joints. ",
+         "coefficients of friction of 0.1 to 0.6, the strength of fresh mortar, ");
+  staged.fresh = {};
+  expect("by friction and without tension. ", "coefficients of friction of 0.1 to 0.6, no crushing");
+  staged.curing.resize(2);
+  staged.curing[0].law.friction = 0.2;
+  staged.curing[0].law.cohesion = 500.0;
+  staged.curing[1].law.friction = 0.3;
+  expect("within the limits", "coefficients of friction of 0.2 to 0.6, the strength of fresh mortar, ");
+}
+
 // A stone that hangs from ties has no joints.
 TEST(FirstScreen, TiesCarryWhatHasNoJoints) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
