@@ -76,9 +76,10 @@ void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Ca
                                  const Assembly& assembly, Summary* summary) const {
   const auto total = static_cast<int>(stages.size());
   const Least property = scene.analysis.staged.least;
-  summary->status = unconverged         ? Status::unconverged
+  summary->status = motion_proven       ? Status::moving
+                    : unconverged       ? Status::unconverged
                     : standing == total ? cupola::standing(all_proven)
-                                        : motion(motion_proven);
+                                        : Status::moving_unproven;
   summary->message = fmt::format("stages that stand with the mortar of the case: {} of {}", standing, solved);
   if (!first_failure.empty()) summary->message += "; the first that does not is " + first_failure;
   if (ended && solved < total)

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
-#include "solver/analysis/construction/construction.hpp"
+#include "solver/analysis/construction/construction_progress.hpp"
 #include "solver/dynamics/laying_order.hpp"
 #include "solver/runtime/threads.hpp"
 #include "tests/solver/construction_runs.hpp"
@@ -201,6 +201,19 @@ TEST(Staged, IsTheSameOnAnyNumberOfThreads) {
   ASSERT_EQ(results[1].frames.size(), 6u);
   for (size_t k = 0; k < 6; ++k)
     EXPECT_EQ(results[0].frames[k].contacts.force, results[1].frames[k].contacts.force);
+}
+
+// What other stages leave open does not take back a proof.
+TEST(Staged, OneStageThatIsProvenToMoveRefutesTheConstruction) {
+  ConstructionProgress progress;
+  progress.solved = 2;
+  progress.unconverged = progress.motion_proven = true;
+  Summary summary;
+  progress.judge({LaidBlocks{}, LaidBlocks{}}, Case{}, Assembly{}, &summary);
+  EXPECT_EQ(to_string(summary.status), to_string(Status::moving));
+  progress.motion_proven = false;
+  progress.judge({LaidBlocks{}, LaidBlocks{}}, Case{}, Assembly{}, &summary);
+  EXPECT_EQ(to_string(summary.status), to_string(Status::unconverged));
 }
 
 }  // namespace
