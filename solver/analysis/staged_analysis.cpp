@@ -104,9 +104,11 @@ void ConstructionRun::advance() {
   }
   // A stage that fails is built with the least mortar with which it stands, if that is known.
   if (stage.solution.outcome != StaticOutcome::equilibrium && stage.least.bracket.found)
-    stage.solution = building_.solve(stage.least.bracket.stable.value);
+    stage.solution = building_.solve_least(stage.least.bracket);
   progress_.ended = stage.solution.outcome != StaticOutcome::equilibrium;
-  if (!progress_.ended) building_.accept(stage.solution);
+  if (progress_.ended) return;
+  progress_.include_displacement(building_, stage.solution);
+  building_.accept(stage.solution);
 }
 
 /// Stages of whole courses without carried state, which do not know each other: each thread solves whole

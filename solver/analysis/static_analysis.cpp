@@ -120,20 +120,6 @@ std::string undecided_warning(const DirectionLimits& limits) {
       limits.undecided, limits.directions, limits.first_undecided_deg);
 }
 
-/// A note for the message if displacements are large, because equilibrium is found on the geometry as built.
-std::string linearity_note(const Model& model, double displacement) {
-  constexpr double kSmall = 0.1;  // of the smallest free block
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const Block& block : model.assembly->blocks)
-    if (!block.fixed) smallest = std::min(smallest, std::cbrt(block.volume));
-  if (displacement <= kSmall * smallest) return "";
-  return fmt::format(
-      "; the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m, but "
-      "forces are those of the geometry as built. {}",
-      displacement, smallest,
-      model.support_motions.empty() ? "Check `joints.compliance`" : "A `path` follows supports that move");
-}
-
 /// Solves with smaller and smaller tolerances until the certified error of every joint wrench is at most
 /// `wrench_error`. If no error can be certified, or rounding prevents it, the outcome is `unconverged`.
 StaticSolution solve_to_wrench_error(const Model& model, const State& start, const ContactSet& contacts,
@@ -208,7 +194,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
         "far it is from falling: cupola assess");
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += gaps_note(model, rest, contacts);
-  if (summary.max_displacement_m) summary.message += linearity_note(model, *summary.max_displacement_m);
+  if (summary.max_displacement_m)
+    summary.message += linearity_note(scene, assembly, *summary.max_displacement_m);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     const DirectionLimits limits = find_robustness(scene, assembly);
     summary.robustness = limits.least;

@@ -139,7 +139,7 @@ std::optional<StaticSolution> Construction::falling_part(const std::optional<dou
 
 StaticSolution Construction::solve(const std::optional<double>& trial, Need need) {
   StaticOptions options = options_;
-  if (trial) options.tolerance = verdict_options(site_->scene.analysis).tolerance;
+  if (trial && need == Need::verdict) options.tolerance = verdict_options(site_->scene.analysis).tolerance;
   if (need == Need::verdict)
     if (std::optional<StaticSolution> motion = falling_part(trial, options)) return std::move(*motion);
   problem_ = stage_problem(*site_, state_, trial, FreeBlocks::all);
@@ -155,6 +155,17 @@ StaticSolution Construction::solve(Need need) {
 
 StaticSolution Construction::solve(double trial) {
   return solve(trial, Need::verdict);
+}
+
+StaticSolution Construction::solve_least(const Bracket& bracket) {
+  const double least = bracket.stable.value;
+  double value = least, step = value - bracket.moving.value;
+  StaticSolution solution = solve(value, Need::forces);
+  for (; solution.outcome != StaticOutcome::equilibrium && value + step <= 2.0 * least; step *= 2.0) {
+    value += step;
+    solution = solve(value, Need::forces);
+  }
+  return solution;
 }
 
 void Construction::accept(const StaticSolution& solution) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/analysis/construction/stage_problem.hpp"
-#include "solver/analysis/statics/static_solve.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
 
 namespace cupola {
 
@@ -30,6 +30,9 @@ class Construction {
   StaticSolution solve(Need need);
   /// With a value of the fresh property that analysis.staged.least names.
   StaticSolution solve(double trial);
+  /// With the least value of that bracket with which it stands to analysis.tolerance, which verdicts need not
+  /// meet.
+  StaticSolution solve_least(const Bracket& bracket);
   /// Takes what is laid as standing, as solve() found it last, and continues from there if
   /// analysis.staged.carry.
   void accept(const StaticSolution& solution);

@@ -1,9 +1,12 @@
 #include "solver/analysis/construction/construction_progress.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/model/block_names.hpp"
+#include "solver/analysis/construction/stage_measures.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 
 namespace cupola {
@@ -43,6 +46,7 @@ void ConstructionProgress::include(const LaidBlocks& laid, const Construction& b
   ++solved;
   iterations += stage.iterations;
   standing += stands;
+  if (stands) include_displacement(building, solution);
   need_none += stage.least.needs_none;
   unconverged = unconverged || solution.outcome == StaticOutcome::unconverged;
   all_proven = all_proven && solution.proven;
@@ -72,6 +76,11 @@ void ConstructionProgress::include(const LaidBlocks& laid, const Construction& b
   failures_csv += failure_rows(next, laid, site.assembly, stage);
 }
 
+void ConstructionProgress::include_displacement(const Construction& building,
+                                                const StaticSolution& solution) {
+  largest_displacement = std::max(largest_displacement, cupola::largest_displacement(building, solution));
+}
+
 void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Case& scene,
                                  const Assembly& assembly, Summary* summary) const {
   const auto total = static_cast<int>(stages.size());
@@ -85,6 +94,7 @@ void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Ca
   if (ended && solved < total)
     summary->message += fmt::format("; the construction ends at stage {}, {} not reached", next - 1,
                                     counted(total - solved, "stage was", "stages were"));
+  summary->message += linearity_note(scene, assembly, largest_displacement);
   if (property == Least::none) return;
   const std::string name = to_string(property);
   summary->message +=

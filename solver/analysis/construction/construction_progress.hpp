@@ -17,6 +17,7 @@ struct ConstructionProgress {
   int next = 0;  ///< stage
   int solved = 0, standing = 0, need_none = 0, undecided = 0, iterations = 0;
   double worst_balance = 0.0;
+  double largest_displacement = 0.0;  ///< m, of a block in a stage that stands or is carried on
   WorstOfRun worst;
   double least_stands = -1.0, least_moves = 0.0;  ///< of the most demanding stage; < 0: none found
   int least_stage = 0;
@@ -29,6 +30,8 @@ struct ConstructionProgress {
 
   /// Counts stage `next`.
   void include(const LaidBlocks& laid, const Construction& building, const SolvedStage& stage);
+  /// Of an equilibrium from which the next stage starts.
+  void include_displacement(const Construction& building, const StaticSolution& solution);
   /// Sets status, message and critical value of the whole construction.
   void judge(const std::vector<LaidBlocks>& stages, const Case& scene, const Assembly& assembly,
              Summary* summary) const;
@@ -51,9 +54,10 @@ void visit(Archive& archive, BuiltState& x) {
 
 template <class Archive>
 void visit(Archive& archive, ConstructionProgress& x) {
-  archive(x.next, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance, x.worst,
-          x.least_stands, x.least_moves, x.least_stage, x.not_held, x.last_bracket, x.first_failure,
-          x.unconverged, x.ended, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
+  archive(x.next, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance,
+          x.largest_displacement, x.worst, x.least_stands, x.least_moves, x.least_stage, x.not_held,
+          x.last_bracket, x.first_failure, x.unconverged, x.ended, x.all_proven, x.motion_proven,
+          x.stages_csv, x.failures_csv);
 }
 
 }  // namespace cupola

@@ -1,5 +1,8 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
+#include "solver/analysis/construction/construction.hpp"
 #include "tests/solver/construction_runs.hpp"
 
 // Joints, ties and supports of a structure that is built block by block.
@@ -84,6 +87,44 @@ TEST(Construction, SupportsMoveOnceTheStructureIsComplete) {
     const double weight = 5000.0 * testing::kG;
     EXPECT_NEAR(normal_force(built.frames.back(), 1, 3), (weight - 2.0 * down / c) / 3.0, 1.0);
     EXPECT_NEAR(built.frames.back().blocks.displacement[1].z(), -down, 1e-12);
+  }
+}
+
+// A course on a frictionless slope between uprights, with heads that nothing presses, holds by the cohesion of
+// its bed, gamma h sin theta. A millionth less is enough for a verdict (1e-5), not for a state that is carried
+// on to 1e-10, which has the next higher value.
+TEST(Construction, CarriesOnWhatObeysTheTolerance) {
+  constexpr double kTheta = 0.7, kTolerance = 1e-10;
+  const testing::CourseSpec course{.bricks = 4, .length = 0.68, .uprights = true};
+  const Assembly assembly = testing::make_course(course);
+  Case scene = testing::course_case(kTheta, 0.0);
+  scene.joints.head = testing::joint_law(0.1);
+  scene.analysis.tolerance = kTolerance;
+  scene.analysis.staged.least = StagedConstruction::Least::cohesion;
+  Construction building(scene, assembly, [](const std::string&) {});
+  building.lay({1}, testing::kFirstCourse);
+  building.accept(building.solve(Construction::Need::forces));
+  building.lay({2, 3, 4, 5}, testing::kFirstCourse);
+  const double least = testing::kGamma * course.height * std::sin(kTheta);
+  Bracket bracket;
+  bracket.stable.value = (1.0 - 1e-6) * least;
+  bracket.moving.value = (1.0 - 1e-5) * least;
+  const StaticSolution verdict = building.solve(bracket.stable.value);
+  ASSERT_EQ(verdict.outcome, StaticOutcome::equilibrium) << verdict.message;
+  ASSERT_GT(verdict.balance.residual, kTolerance);
+  const StaticSolution carried = building.solve_least(bracket);
+  ASSERT_EQ(carried.outcome, StaticOutcome::equilibrium) << carried.message;
+  EXPECT_LE(carried.balance.residual, kTolerance);
+}
+
+// Joints so soft that each cube sinks by 0.2 m: forces are still those of the geometry as built.
+TEST(Construction, SaysThatDisplacementsAreLarge) {
+  for (const double sinks : {0.02, 0.2}) {
+    const Assembly column = testing::stack_of_cubes(1.0, {1000.0});
+    const Summary summary = build(level_case(sinks / (1000.0 * testing::kG), true), column).summary;
+    ASSERT_EQ(summary.status, Status::stable) << summary.message;
+    EXPECT_EQ(summary.message.find("displacement of 0.2 m is not small") != std::string::npos, sinks > 0.1)
+        << summary.message;
   }
 }
 
