@@ -8,6 +8,23 @@
 namespace cupola {
 namespace {
 
+/// True if the slots of a course count clockwise about the axis of its sheet, as in a mirror image. Rows
+/// without an axis have no such sense.
+bool runs_clockwise(const Assembly& assembly, const std::vector<int>& course) {
+  constexpr double kRounding = 1e-9;  // two halves of a ring run either way
+  double area = 0.0, size = 0.0;      // m2, twice that between axis and course
+  for (size_t i = 1; i < course.size(); ++i) {
+    const Block &from = assembly.blocks[course[i - 1]], &to = assembly.blocks[course[i]];
+    const Sheet* sheet = assembly.sheet_of(from.ring);
+    using enum Sheet::ThrustLines;
+    if (!sheet || sheet->thrust_lines == none || sheet->thrust_lines == one) return false;
+    const Vec3 a = sheet->own(from.centroid), b = sheet->own(to.centroid);
+    area += a.x() * b.y() - a.y() * b.x();
+    size += a.head<2>().norm() * b.head<2>().norm();
+  }
+  return area < -kRounding * size;
+}
+
 /// The blocks of a course in the order in which one team would lay them all.
 std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruction& staged,
                                  const std::vector<int>& courses, int number) {
@@ -17,8 +34,8 @@ std::vector<int> course_in_order(const Assembly& assembly, const StagedConstruct
     if (!assembly.blocks[block].fixed && courses[block] == number) course.push_back(block);
   const auto slot = [&](int block) { return assembly.blocks[block].slot; };
   std::ranges::stable_sort(course, {}, slot);
-  if (staged.order == clockwise || (staged.order == alternating && number % 2 == 1))
-    std::ranges::reverse(course);
+  const bool backwards = staged.order == clockwise || (staged.order == alternating && number % 2 == 1);
+  if (backwards != runs_clockwise(assembly, course)) std::ranges::reverse(course);
   if (staged.order != given) return course;
   std::map<int, size_t> place;
   for (size_t i = 0; i < staged.sequence.size(); ++i) place.try_emplace(staged.sequence[i], i);

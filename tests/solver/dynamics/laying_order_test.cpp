@@ -45,6 +45,29 @@ TEST(LayingOrder, TeamsLayEqualArcsInTheOrderOfTheCase) {
   EXPECT_EQ(stages.size(), 7u);
 }
 
+// Slots of a mirror image run clockwise. Here four of six sectors, 0 to 180 degrees, about an axis far away.
+TEST(LayingOrder, OfAMirrorImageIsSeenFromAbove) {
+  for (const bool image : {false, true}) {
+    Assembly drum;
+    for (int k = 0; k < 4; ++k) {
+      testing::add_sector(testing::RingSpec{}.meridian(0.0, 0.5), k, 6, false, 0, &drum);
+      if (image) drum.blocks.back().slot = 3 - k;
+    }
+    for (Vec3& vertex : drum.vertices) vertex.x() += 50.0;
+    drum.num_rings = 1;
+    drum.sheets = {
+        {.name = "drum", .num_rings = 1, .thrust_lines = Sheet::ThrustLines::radial, .origin = {50, 0, 0}}};
+    compute_mass_properties(&drum);
+    StagedConstruction staged;
+    staged.unit = StagedConstruction::Unit::block;
+    std::vector<int> order;
+    for (const LaidBlocks& stage : laying_order(drum, staged)) order.push_back(stage.blocks.at(0));
+    EXPECT_EQ(order, (std::vector<int>{0, 1, 2, 3})) << "image " << image;
+    staged.order = StagedConstruction::Order::clockwise;
+    EXPECT_EQ(laying_order(drum, staged)[0].blocks, (std::vector<int>{3})) << "image " << image;
+  }
+}
+
 // The rings of an arch run from x > 0 to x < 0. It rises from both springings, here on two courses of a wall.
 TEST(LayingOrder, AnArchRisesFromBothSpringings) {
   for (const int voussoirs : {4, 5}) {
