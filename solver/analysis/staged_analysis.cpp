@@ -143,6 +143,7 @@ bool ConstructionRun::advance_at_once() {
     const std::unique_ptr<Separate> own = std::move(separate[i]);
     for (const std::string& line : own->log) sinks_.log(line);
     record(own->building, own->stage);
+    own->building.suppose_standing();  // as the next stage does
     return i + 1 == left || may_go_on(own->building);
   };
   return share_in_order(kWork, left, solve, record_next);

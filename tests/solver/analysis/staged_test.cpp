@@ -203,6 +203,23 @@ TEST(Staged, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(results[0].frames[k].contacts.force, results[1].frames[k].contacts.force);
 }
 
+// The state that is saved has the stages before it as standing, as the run that saves it has.
+TEST(Staged, ResumesWithAsManyIterations) {
+  const Assembly wall = testing::running_bond_wall({1.0, 0.5, 0.3}, 3, 10);
+  Case scene = staged_case(0.7, 0.31);
+  scene.loads.gravity = testing::tilted_gravity(0.3);
+  scene.analysis.staged.least = StagedConstruction::Least::friction;
+  const Summary whole = build(scene, wall).summary;
+  AnalysisSinks sinks, again;
+  int asked = 0;
+  sinks.checkpoint = [&](const std::string& written) { again.resume_from = written; };
+  sinks.interrupted = [&] { return ++asked == 5; };
+  EXPECT_FALSE(run_analysis(scene, wall, sinks));
+  const Built rest = build(scene, wall, again);
+  ASSERT_EQ(rest.stages.size(), 10u);
+  EXPECT_EQ(rest.summary.iterations, whole.iterations);
+}
+
 // What other stages leave open does not take back a proof.
 TEST(Staged, OneStageThatIsProvenToMoveRefutesTheConstruction) {
   ConstructionProgress progress;
