@@ -77,7 +77,12 @@ KeyNumber critical_answer(const Evaluation& e) {
 
 /// How to compute the margins of this case.
 std::string command_for_margins(const Evaluation& e) {
-  if (is_stage(e.last.frame.role)) return "`analysis.staged.least: cohesion`";
+  if (is_stage(e.last.frame.role)) {
+    const std::vector<CuringMortar>& curing = e.scene.analysis.staged.curing;
+    const bool cohesion = e.scene.joints.compliance.per == Compliance::Per::area &&
+                          (curing.empty() || curing.front().law.cohesion);
+    return fmt::format("`analysis.staged.least: {}`", cohesion ? "cohesion" : "friction");
+  }
   const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
   return "cupola assess " + file.filename().string();
 }

@@ -98,6 +98,19 @@ TEST(FirstScreen, AConstructionAssumesItsFreshMortar) {
   expect("within the limits", "coefficients of friction of 0.2 to 0.6, the strength of fresh mortar, ");
 }
 
+// The case may have asked for it: cohesion requires compliance per area.
+TEST(FirstScreen, AConstructionThatFallsIsAdvisedToSearchWhatItsJointsCanHave) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::staged;
+  e.summary.status = Status::moving;
+  e.last.frame.role = FrameRole::failed_stage;
+  for (const auto& [per, advice] : {std::pair(Compliance::Per::point, "`analysis.staged.least: friction`"),
+                                    std::pair(Compliance::Per::area, "`analysis.staged.least: cohesion`")}) {
+    e.scene.joints.compliance.per = per;
+    EXPECT_TRUE(margin_answer(e).detail.ends_with(advice)) << margin_answer(e).detail;
+  }
+}
+
 // A stone that hangs from ties has no joints.
 TEST(FirstScreen, TiesCarryWhatHasNoJoints) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
