@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/files/csv_columns.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/joint_motion.hpp"
 #include "solver/analysis/construction/stage_measures.hpp"
 
 namespace cupola {
@@ -23,6 +25,46 @@ std::vector<double> block_radii(const Assembly& assembly) {
   return radius;
 }
 
+/// Speeds at the joints of blocks, over that of the fastest block.
+struct JointMotions {
+  double hinging = 0.0, sliding = 0.0;  ///< of the fastest joint
+};
+
+/// By block: how it moves against others, together with those that move with it as one.
+std::vector<JointMotions> motions_of_bodies(const StageProblem& problem, const VecX& v, double fastest) {
+  const Model& model = problem.model;
+  const auto velocity = [&](int block, const Vec3& point) -> Vec3 {
+    const int i = model.free_index[block];
+    if (i == ContactProblem::kFixed) return Vec3::Zero();
+    const Vec3 turn = v.segment<3>(6 * i + 3);
+    return v.segment<3>(6 * i) + turn.cross(point - model.assembly->blocks[block].centroid);
+  };
+  const std::vector<Patch>& patches = problem.contacts.patches;
+  std::vector<JointSpeeds> joints(patches.size());
+  for (const Contact& contact : problem.contacts.points) {
+    const Vec3 u =
+        (velocity(contact.block_b, contact.point_b) - velocity(contact.block_a, contact.point_a)) / fastest;
+    const double opening = u.dot(contact.normal);
+    joints[contact.patch].add(opening, (u - opening * contact.normal).norm());
+  }
+  const size_t count = model.assembly->blocks.size();
+  DisjointSets bodies(count);
+  for (size_t i = 0; i < joints.size(); ++i)
+    if (joints[i].stays_closed && joints[i].motion() == JointMotion::closed)
+      bodies.join(patches[i].block_a, patches[i].block_b);
+  std::vector<JointMotions> motions(count);
+  for (size_t i = 0; i < joints.size(); ++i)
+    for (const int block : {patches[i].block_a, patches[i].block_b}) {
+      JointMotions& body = motions[bodies.root(block)];
+      if (joints[i].motion() == JointMotion::hinging)
+        body.hinging = std::max(body.hinging, joints[i].turning());
+      body.sliding = std::max(body.sliding, joints[i].sliding);
+    }
+  for (size_t block = 0; block < count; ++block)
+    motions[block] = motions[bodies.root(static_cast<int>(block))];
+  return motions;
+}
+
 using Least = StagedConstruction::Least;
 
 LeastSearch::Result find_least(Construction* building, LeastSearch* search, SolvedStage* stage) {
@@ -32,7 +74,7 @@ LeastSearch::Result find_least(Construction* building, LeastSearch* search, Solv
     stage->iterations += solution.iterations;
     if (solution.outcome == StaticOutcome::moving && value > nearest) {
       nearest = value;
-      stage->falling = falling_blocks(building->problem().model, solution.step_solution.v);
+      stage->falling = falling_blocks(building->problem(), solution.step_solution.v);
     }
     return LimitTrial{value, solution.outcome, solution.speed_ratio};
   });
@@ -103,7 +145,7 @@ SolvedStage solve_stage(Construction* building, LeastSearch* search, Constructio
   stage.solution = building->solve(need);
   stage.iterations += stage.solution.iterations;
   if (stage.solution.outcome == StaticOutcome::moving)
-    stage.falling = falling_blocks(building->problem().model, stage.solution.step_solution.v);
+    stage.falling = falling_blocks(building->problem(), stage.solution.step_solution.v);
   return stage;
 }
 
@@ -146,18 +188,20 @@ std::string least_note(const SolvedStage& stage, Least property) {
                                 : stage.least.bracket.message;
 }
 
-std::vector<FallingBlock> falling_blocks(const Model& model, const VecX& v) {
+std::vector<FallingBlock> falling_blocks(const StageProblem& problem, const VecX& v) {
   constexpr double kSlow = 0.1;  // of the fastest: carried along, or settling
+  const Model& model = problem.model;
   const double fastest = largest_speed(v);
   std::vector<FallingBlock> falling;
   if (fastest == 0.0) return falling;
   const std::vector<double> radius = block_radii(*model.assembly);
+  const std::vector<JointMotions> motions = motions_of_bodies(problem, v, fastest);
   for (int i = 0; i < model.num_free(); ++i) {
     const double speed = v.segment<3>(6 * i).norm(), turn = v.segment<3>(6 * i + 3).norm();
     if (speed < kSlow * fastest) continue;
     const int block = model.free_blocks[i];
-    falling.push_back(
-        {block, turn * radius[block] >= speed ? FallingMode::tips : FallingMode::slides, speed / fastest});
+    const bool tips = turn * radius[block] >= speed || motions[block].hinging > motions[block].sliding;
+    falling.push_back({block, tips ? FallingMode::tips : FallingMode::slides, speed / fastest});
   }
   return falling;
 }

@@ -19,14 +19,15 @@ constexpr auto enum_names(FallingMode) {
 /// A block that leaves its place in a mechanism.
 struct FallingBlock {
   int block = 0;
-  FallingMode mode =
-      FallingMode::slides;  ///< tips: it turns about an axis no farther than its farthest corner
-  double speed = 0.0;       ///< of its centroid, over that of the fastest block
+  /// tips: it turns about an axis no farther than its farthest corner, or hinges faster than it slides, together
+  /// with blocks that move with it as one.
+  FallingMode mode = FallingMode::slides;
+  double speed = 0.0;  ///< of its centroid, over that of the fastest block
 };
 
 /// The blocks whose centroids move at a tenth of the largest speed or more. `v`: velocities of the free
 /// blocks (6 nb), of any amplitude.
-std::vector<FallingBlock> falling_blocks(const Model& model, const VecX& v);
+std::vector<FallingBlock> falling_blocks(const StageProblem& problem, const VecX& v);
 
 /// A stage that was solved.
 struct SolvedStage {

@@ -29,7 +29,7 @@ TEST(FallingStage, HasTheVerdictOfTheWholeStructure) {
       const StaticSolution quick = building.solve(Construction::Need::verdict);
       const int solved = building.problem().model.num_free(), blocks = building.problem().num_blocks;
       const std::vector<FallingBlock> quick_blocks =
-          falling_blocks(building.problem().model, quick.step_solution.v);
+          falling_blocks(building.problem(), quick.step_solution.v);
       const StaticSolution whole = building.solve(Construction::Need::forces);
       ASSERT_EQ(building.problem().model.num_free(), blocks);
       ASSERT_EQ(to_string(quick.outcome), to_string(whole.outcome)) << blocks << " blocks";
@@ -69,6 +69,23 @@ TEST(FallingStage, IsAskedOfTheWholeWhereItsBlocksStand) {
   const StaticSolution loaded = building.solve(Construction::Need::verdict);
   EXPECT_EQ(loaded.outcome, StaticOutcome::moving) << loaded.message;
   EXPECT_EQ(building.problem().model.num_free(), 3);
+}
+
+// Five slabs of length 1, each 0.24 farther out: the mean of the upper four lies 0.6 outwards of the lowest,
+// which ends at 0.5. They turn about its edge, some about an axis outside their own corners, and none slides.
+TEST(FallingStage, ACorbelTipsAboutItsLowestEdge) {
+  std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {1, 1, 1}, .fixed = true}};
+  for (int k = 0; k < 5; ++k)
+    boxes.push_back({.center = {0.24 * k, 0, 0.25 * k + 0.125}, .size = {1, 1, 0.25}});
+  const Assembly assembly = testing::make_boxes(boxes);
+  Case scene = testing::level_case(1e-10, false);
+  Construction building(scene, assembly, [](const std::string&) {});
+  building.lay({1, 2, 3, 4, 5}, 0);
+  const StaticSolution solution = building.solve(Construction::Need::forces);
+  ASSERT_EQ(solution.outcome, StaticOutcome::moving) << solution.message;
+  const std::vector<FallingBlock> falling = falling_blocks(building.problem(), solution.step_solution.v);
+  ASSERT_EQ(falling.size(), 4u);
+  for (const FallingBlock& block : falling) EXPECT_EQ(to_string(block.mode), "tips") << block.block;
 }
 
 }  // namespace
