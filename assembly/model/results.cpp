@@ -10,7 +10,7 @@ namespace cupola {
 namespace {
 
 std::string label_of(const Frame& frame) {
-  const double course = std::ceil(frame.time);
+  const double course = std::ceil(frame.time) + 0.0;  // not -0
   switch (frame.role) {
     case FrameRole::step:
     case FrameRole::path:

@@ -160,6 +160,9 @@ TEST(ResultsFile, AnOpenCourseIsLabelledByItsShare) {
   frame.time = 2.4;
   set_role(FrameRole::stage, "stage 7", &frame);
   EXPECT_EQ(frame.label, "course 3, 40 % laid");
+  frame.time = -0.75;
+  set_role(FrameRole::stage, "stage 0", &frame);
+  EXPECT_EQ(frame.label, "course 0, 25 % laid");
 }
 
 // Version 0.2 wrote no roles. The frames of an unbounded end and of a static start that failed are in no
