@@ -11,6 +11,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/face_loads.hpp"
 #include "assembly/model/loaded_faces.hpp"
 #include "assembly/model/loads_on_top.hpp"
 #include "assembly/model/open_tops.hpp"
@@ -97,64 +98,6 @@ void add_block_force(const BlockForce& load, const Assembly& assembly, const std
         fmt::format("{}: block {} is fixed; apply the force to a free block", chosen_by, number));
   forces->push_back({number, load.point.value_or(block.centroid), load.force, time});
   if (load.moment) add_moment(*load.moment, number, block, time, forces);
-}
-
-/// The kinds of face that free blocks of a member have, as the end of a sentence.
-std::string kinds_of(const Assembly& assembly, const std::string& member) {
-  std::string kinds;
-  for (const FaceKind kind : {FaceKind::extrados, FaceKind::intrados, FaceKind::top, FaceKind::free}) {
-    const std::vector<LoadedFace> faces = faces_of_kind(assembly, std::array{kind}, 0, kLastRing, member);
-    if (faces.empty()) continue;
-    const auto [low, high] = std::ranges::minmax(
-        faces, {}, [&](const LoadedFace& face) { return assembly.blocks[face.block].ring; });
-    kinds += fmt::format("{}{} (rings {} to {})", kinds.empty() ? "" : ", ", to_string(kind),
-                         assembly.blocks[low.block].ring, assembly.blocks[high.block].ring);
-  }
-  return kinds.empty() ? "none that a load can act on" : kinds;
-}
-
-/// A fill on the extrados lies on the tops beside it, too, and on what no masonry below its level covers.
-std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assembly, const std::string& key) {
-  const bool on_tops = load.faces == FaceKind::top;
-  const double level = load.fill ? load.fill->level : kFar;
-  std::vector<LoadedFace> faces;
-  if (!on_tops)
-    faces = faces_of_kind(assembly, std::array{load.faces}, load.from_ring, load.to_ring, load.member);
-  if (load.fill) faces = open_parts(assembly, faces, level);
-  if (on_tops || (load.fill && load.faces == FaceKind::extrados))
-    std::ranges::move(open_tops(assembly, load.from_ring, load.to_ring, load.member, !on_tops, level),
-                      std::back_inserter(faces));
-  if (faces.empty())
-    throw InputError(fmt::format("{}: no free block{}{} has faces of kind {}; {} has: {}", key,
-                                 load.member.empty() ? "" : " of " + load.member,
-                                 load.from_ring == 0 && load.to_ring == kLastRing
-                                     ? ""
-                                     : fmt::format(" in rings {} to {}", load.from_ring, load.to_ring),
-                                 to_string(load.faces), load.member.empty() ? "the model" : "it",
-                                 kinds_of(assembly, load.member)));
-  return faces;
-}
-
-void add_face_load(const FaceLoad& load, const Assembly& assembly, const std::string& key,
-                   const Vec3& gravity, int time, std::vector<PointForce>* forces) {
-  check_member_exists(assembly, load.member, key);
-  const std::vector<LoadedFace> faces = faces_under(load, assembly, key);
-  const bool has_traction = load.traction.norm() > 0.0 || load.pressure != 0.0 || !load.fill;
-  const std::vector<bool> touched = load.fill ? touched_by_fill(faces) : std::vector<bool>();
-  bool is_covered = !load.fill;
-  for (size_t i = 0; i < faces.size(); ++i) {
-    const LoadedFace& face = faces[i];
-    if (has_traction)
-      forces->push_back(
-          {face.block, face.centroid, face.area * (load.traction - load.pressure * face.normal), time});
-    if (!load.fill || !touched[i]) continue;
-    const auto [point, force] = fill_force(*load.fill, face, gravity);
-    is_covered = is_covered || load.fill->stress(point.z()) > 0.0;
-    if (force.norm() > 0.0) forces->push_back({face.block, point, force, time});
-  }
-  if (!is_covered)
-    throw InputError(fmt::format("{}: the fill up to z = {:g} m lies on none of the faces of kind {}", key,
-                                 load.fill->level, to_string(load.faces)));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include <boost/math/quadrature/gauss.hpp>
 
@@ -11,60 +10,6 @@
 
 namespace cupola {
 namespace {
-
-constexpr double kStandardGravity = 9.81;  // m/s2, as of Material::density
-
-/// Adds the integrals of the stress s and of s x over a convex polygon on which s is linear.
-void integrate(const Fill& fill, const std::vector<Vec3>& polygon, double* sum, Vec3* moment) {
-  for (size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const std::array<Vec3, 3> x{polygon[0], polygon[i], polygon[i + 1]};
-    const double area = 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-    double s = 0.0;
-    Vec3 sx = Vec3::Zero(), middle = Vec3::Zero();
-    for (const Vec3& corner : x) {
-      s += fill.stress(corner.z());
-      sx += fill.stress(corner.z()) * corner;
-      middle += corner;
-    }
-    *sum += area / 3.0 * s;
-    *moment += area / 12.0 * (s * middle + sx);
-  }
-}
-
-/// The columns above the faces that look up, by their least x.
-class Columns {
- public:
-  explicit Columns(std::span<const LoadedFace> faces) {
-    for (const LoadedFace& face : faces) {
-      if (!looks_up(face)) continue;
-      const auto [low, high] = std::ranges::minmax(face.polygon, {}, [](const Vec3& p) { return p.x(); });
-      by_low_x_.emplace(low.x(), &face);
-      widest_ = std::max(widest_, high.x() - low.x());
-    }
-  }
-
-  /// True if a face lies below the point or at it.
-  bool contain(const Vec3& point) const {
-    const auto end = by_low_x_.upper_bound(point.x());
-    for (auto i = by_low_x_.lower_bound(point.x() - widest_); i != end; ++i)
-      if (lies_below(*i->second, point)) return true;
-    return false;
-  }
-
- private:
-  static bool lies_below(const LoadedFace& face, const Vec3& point) {
-    if (face.normal.dot(point - face.centroid) < 0.0) return false;
-    for (size_t i = 0; i < face.polygon.size(); ++i) {
-      const Vec3 side = face.polygon[(i + 1) % face.polygon.size()] - face.polygon[i],
-                 to = point - face.polygon[i];
-      if (side.x() * to.y() - side.y() * to.x() < 0.0) return false;  // in plan
-    }
-    return true;
-  }
-
-  std::multimap<double, const LoadedFace*> by_low_x_;
-  double widest_ = 0.0;  // m
-};
 
 /// The pieces of faces that no other part of their block hides.
 std::vector<LoadedFace> on_surface(const Assembly& assembly, const std::vector<LoadedFace>& faces) {
@@ -111,11 +56,6 @@ std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, d
   return kept;
 }
 
-double Fill::stress(double z) const {
-  const double bottom = from ? std::max(z, *from) : z;
-  return unit_weight * std::max(level - bottom, 0.0);
-}
-
 bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member) {
   return member.empty() || (!assembly.members.empty() && assembly.members[block.member] == member);
 }
@@ -134,35 +74,6 @@ std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const 
     }
   }
   return on_surface(assembly, faces);
-}
-
-Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity) {
-  double sum = 0.0;
-  Vec3 moment = Vec3::Zero();
-  const Vec3 up = Vec3::UnitZ();
-  std::vector<Vec3> covered = below_plane(face.polygon, up, fill.level);
-  if (fill.from) {
-    integrate(fill, below_plane(covered, -up, -*fill.from), &sum, &moment);
-    covered = below_plane(covered, up, *fill.from);
-  }
-  integrate(fill, covered, &sum, &moment);
-  if (sum == 0.0) return {face.centroid, Vec3::Zero()};
-  const Vec3 level_normal(face.normal.x(), face.normal.y(), 0.0);
-  return {moment / sum,
-          sum / kStandardGravity *
-              (std::max(face.normal.z(), 0.0) * gravity + fill.horizontal * gravity.z() * level_normal)};
-}
-
-std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces) {
-  constexpr double kOutside = 0.01;  // of the size of a face: nearer than that a column lies against it
-  const Columns columns(faces);
-  std::vector<bool> touched;
-  for (const LoadedFace& face : faces) {
-    const Vec3 outwards(face.normal.x(), face.normal.y(), 0.0);
-    touched.push_back(looks_up(face) || columns.contain(face.centroid + kOutside * std::sqrt(face.area) *
-                                                                            outwards.stableNormalized()));
-  }
-  return touched;
 }
 
 namespace {

@@ -34,23 +34,6 @@ bool is_of_member(const Assembly& assembly, const Block& block, const std::strin
 std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const FaceKind> kinds,
                                       int from_ring, int to_ring, const std::string& member);
 
-/// A force and the point where it acts.
-struct Resultant {
-  Vec3 point = Vec3::Zero();  ///< m
-  Vec3 force = Vec3::Zero();  ///< N
-};
-
-/// The force of a fill on a face at its centre of pressure, exact for plane faces; zero above the fill. With
-/// the stress s and the outward normal n,
-///     f = (integral of s dA) (max(n_z, 0) g / 9.81 + k g_z / 9.81 (n_x, n_y, 0)),
-/// so that in a limit analysis of tilt or acceleration the fill weighs as the blocks do.
-Resultant fill_force(const Fill& fill, const LoadedFace& face, const Vec3& gravity);
-
-/// Which faces a fill touches. Its body is the columns above the faces that look up, so that it lies on
-/// these, and beside a face with one of those columns just outside its centroid, such as the riser of a step.
-/// A free wall or an overhang has none.
-std::vector<bool> touched_by_fill(std::span<const LoadedFace> faces);
-
 /// Shares of a force that spreads from a rectangle down to the faces below it, along rays: the point (u, v) of
 /// the rectangle, from -1/2 to 1/2 along each side, reaches u (x + 2 m d), v (y + 2 m d) at the depth d, with
 /// the slope m. The share of a face is the part of the rectangle whose rays meet it, and the sum of all is one

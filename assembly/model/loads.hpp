@@ -57,8 +57,8 @@ struct BlockForce {
 
 /// Backing or fill with a level surface. On a face of the masonry its vertical stress is the weight of the
 /// column above, and acts along gravity; the horizontal one is a share of it, on the upright part of the
-/// face. Faces that look down carry the horizontal one only, and faces that it does not touch
-/// (touched_by_fill()) none.
+/// face. Faces that do not look up carry the horizontal one only, where it lies before them
+/// (beside_fill()).
 struct Fill {
   double level = 0.0;          ///< m, z of its surface
   std::optional<double> from;  ///< m, z below which there is other material; none: it lies on the masonry

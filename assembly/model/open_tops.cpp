@@ -127,12 +127,8 @@ std::vector<LoadedFace> open_parts(const Assembly& assembly, const std::vector<L
   const Cover cover(assembly, level);
   std::set<std::pair<int, int>> unused;
   std::vector<LoadedFace> open;
-  for (const LoadedFace& face : faces) {
-    if (looks_up(face))
-      cover.add_open(face, &open, &unused);
-    else
-      open.push_back(face);
-  }
+  for (const LoadedFace& face : faces)
+    if (looks_up(face)) cover.add_open(face, &open, &unused);
   return open;
 }
 

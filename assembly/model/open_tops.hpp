@@ -7,7 +7,7 @@
 
 namespace cupola {
 
-/// What no masonry that lies below `level` (m) covers in plan, of the faces that look up; the others whole.
+/// What no masonry that lies below `level` (m) covers in plan, of the faces that look up.
 std::vector<LoadedFace> open_parts(const Assembly& assembly, const std::vector<LoadedFace>& faces,
                                    double level);
 

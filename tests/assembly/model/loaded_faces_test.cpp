@@ -1,11 +1,11 @@
 // Fill on faces and forces that spread through it, against closed forms.
 
-#include "assembly/model/loaded_faces.hpp"
-
 #include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
+
+#include "assembly/model/fill_pressure.hpp"
 
 namespace cupola::loaded_faces_test {
 namespace {
@@ -47,11 +47,11 @@ TEST(Fill, PressesSidewaysByItsShare) {
   EXPECT_NEAR(of_below.force.x(), -0.4 * 20e3 * 8.0 * 4.0, 1e-9);
 }
 
-// Fill lies on the tread of a step, and so against its riser and under an overhang above the tread, not
-// against the free sides of the wall below the step, nor below an overhang above nothing.
-TEST(Fill, TouchesWhatItLiesOnOrAgainst) {
+// Fill lies on the tread of a step, and so against its riser above it and under an overhang, not against the
+// free sides of the wall below the step, nor below an overhang above nothing.
+TEST(Fill, PressesOnWhatItLiesAgainst) {
   const LoadedFace tread = face_of({{0, 0, 0}, {1, 0, 0}, {1, 4, 0}, {0, 4, 0}}),
-                   riser = face_of({{0, 0, 0}, {0, 4, 0}, {0, 4, 2}, {0, 0, 2}}),
+                   riser = face_of({{0, 0, -1}, {0, 6, -1}, {0, 6, 2}, {0, 0, 2}}),
                    overhang = face_of({{0, 0, 2}, {0, 4, 2}, {0.5, 4, 3}, {0.5, 0, 3}}),
                    outer = face_of({{1, 4, 0}, {1, 0, 0}, {1, 0, -3}, {1, 4, -3}}),
                    inner = face_of({{-1, 0, 0}, {-1, 4, 0}, {-1, 4, -3}, {-1, 0, -3}}),
@@ -59,9 +59,14 @@ TEST(Fill, TouchesWhatItLiesOnOrAgainst) {
   ASSERT_EQ(riser.normal, Vec3::UnitX());
   ASSERT_EQ(outer.normal, Vec3::UnitX());
   ASSERT_LT(overhang.normal.z(), 0.0);
-  EXPECT_EQ(touched_by_fill(std::vector{tread, riser, overhang, outer, inner, end}),
-            (std::vector{true, true, true, false, false, false}));
-  EXPECT_EQ(touched_by_fill(std::vector{riser, overhang, outer}), (std::vector{false, false, false}));
+  const std::vector faces{tread, riser, overhang, outer, inner, end};
+  const Fill fill{.level = 5.0, .from = {}, .unit_weight = 1.0};
+  const std::vector<LoadedFace> pressed = beside_fill(fill, faces, std::vector{tread}, 0.01);
+  ASSERT_EQ(pressed.size(), 2u);
+  EXPECT_NEAR((pressed[0].centroid - Vec3(0.0, 2.0, 1.0)).norm(), 0.0, 1e-15) << "beside the tread, above it";
+  EXPECT_NEAR(pressed[0].area, 2.0 * 4.0, 1e-14);
+  EXPECT_NEAR(pressed[1].area, overhang.area, 1e-14);
+  EXPECT_TRUE(beside_fill(fill, faces, {}, 0.01).empty());
 }
 
 // Layers add up: backing up to 1 m, and soil above it that rests on the backing or on the face.

@@ -12,6 +12,7 @@
 #include "assembly/case/bundled.hpp"
 #include "assembly/case/case_reader.hpp"
 #include "assembly/model/applied_loads.hpp"
+#include "assembly/model/fill_pressure.hpp"
 #include "assembly/model/loaded_faces.hpp"
 #include "generators/generate.hpp"
 #include "tests/fresh_folder.hpp"
