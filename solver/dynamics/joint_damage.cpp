@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace cupola {
 namespace {
@@ -43,8 +45,6 @@ double mean_damage(double damage, double added) {
 }  // namespace
 
 StepBond bond_in_step(const JointLaw& law, const JointDamage& joint) {
-  // Not zero: a contact without any push would not be a contact.
-  constexpr double kNoPush = 1e-200;  // N
   const double left = 1.0 - joint.step_damage;
   StepBond bond{{left * law.strength.tension, left * law.strength.cohesion, law.strength.compression},
                 -joint.crushing};
@@ -71,11 +71,28 @@ Vec3 inelastic_velocity(const ContactProblem& problem, int i, const ContactSolut
          problem.E.segment<3>(3 * i).cwiseProduct(solution.gamma.segment<3>(3 * i));
 }
 
+namespace {
+
+/// True if the joint cracked and has a strength left: it then either bears or pulls.
+bool has_role(const JointDamage& joint) {
+  return joint.opening > 0.0 && joint.step_damage < 1.0;
+}
+
+/// Gives the joint the role that it has at a gap (m, from where its faces touch); true if that is a new one.
+/// Between the two gaps it carries nothing in either role.
+bool take_role(double gap, JointDamage* joint) {
+  if (!has_role(*joint)) return false;
+  const bool bears = joint->bears ? gap <= joint->opening + kRounding : gap < 0.0;
+  return std::exchange(joint->bears, bears) != bears;
+}
+
+}  // namespace
+
 bool refine_step(const Model& model, const State& state, const ContactSet& contacts, const StepProblem& step,
                  const ContactSolution& solution, const StepOptions& options, ContactMemories* memories) {
   const double end = state.time + options.advance();
-  std::vector<JointDamage> refined;
-  bool again = false;
+  std::vector<JointDamage> refined, revised;  // with another damage, and with another role
+  bool refines = false, revises = false;
   for (int i = 0; i < step.num_contacts; ++i) {
     JointDamage joint = memories->of(i).joint;
     const Contact& contact = contacts.points[i];
@@ -83,32 +100,39 @@ bool refine_step(const Model& model, const State& state, const ContactSet& conta
     const Vec3 gamma = solution.gamma.segment<3>(3 * i);
     const Vec3 displacement = options.h * inelastic_velocity(step.problem, i, solution);
     const double mean = mean_damage(joint.damage, added_damage(law, displacement, gamma, joint));
-    again = again || mean > joint.step_damage + kDamageError;
-    joint.step_damage = std::max(joint.step_damage, mean);
-    const bool pulled = joint.opening > 0.0 && !joint.bears && joint.step_damage < 1.0;
     const double u_n = relative_velocity(step.problem, i, solution.v)[0] + step.support_velocity_of(i)[0];
-    if (pulled && contact.gap + joint.crushing + options.h * u_n < 0.0) again = joint.bears = true;
+    revised.push_back(joint);
+    revises |= take_role(contact.gap + joint.crushing + options.h * u_n, &revised.back());
+    refines |= mean > joint.step_damage + kDamageError;
+    joint.step_damage = std::max(joint.step_damage, mean);
     refined.push_back(joint);
   }
-  if (!again) return false;
-  for (size_t i = 0; i < refined.size(); ++i) memories->stored()[i].joint = refined[i];
+  if (!revises && !refines) return false;
+  // What a joint loses in another role is no loss.
+  for (size_t i = 0; i < refined.size(); ++i) memories->stored()[i].joint = revises ? revised[i] : refined[i];
   return true;
 }
 
-bool let_closing_joints_bear(const StepProblem& step, const ContactSolution& motion, double h,
-                             ContactMemories* memories) {
+bool follow_motion(const StepProblem& step, const ContactSolution& motion, double h,
+                   ContactMemories* memories) {
   bool any = false;
   for (int i = 0; i < step.num_contacts; ++i) {
     JointDamage& joint = memories->stored()[i].joint;
-    if (joint.opening == 0.0 || joint.bears) continue;
     const double u_n = relative_velocity(step.problem, i, motion.v)[0] + step.support_velocity_of(i)[0];
-    if (h * u_n < -kRounding) any = joint.bears = true;
+    if (!has_role(joint) || std::abs(h * u_n) <= kRounding) continue;
+    const bool bears = u_n < 0.0;
+    any |= std::exchange(joint.bears, bears) != bears;
   }
   return any;
 }
 
-void let_joints_bear_and_pull(ContactMemories* memories) {
-  for (ContactMemory& memory : memories->stored()) memory.joint.opening = 0.0;
+bool let_joints_bear_and_pull(ContactMemories* memories) {
+  bool any = false;
+  for (ContactMemory& memory : memories->stored()) {
+    any |= has_role(memory.joint);
+    memory.joint.opening = 0.0;
+  }
+  return any;
 }
 
 void add_inelastic_displacement(const JointLaw& law, const Vec3& displacement, const Vec3& gamma,

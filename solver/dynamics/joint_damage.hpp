@@ -28,6 +28,9 @@ namespace cupola {
 // the number of steps; because that displacement depends on the strength, the step is solved again until the
 // mean damage is right.
 
+/// N, the most that a pulled joint pushes. Not zero: a contact without any push would not be a contact.
+constexpr double kNoPush = 1e-200;
+
 /// What a contact point bears in one step.
 struct StepBond {
   JointStrength strength;  ///< N
@@ -38,18 +41,19 @@ StepBond bond_in_step(const JointLaw& law, const JointDamage& joint);
 /// Before the first solve of a step: its damage is that at the end of the last step.
 void begin_step(const ContactSet& contacts, ContactMemories* memories);
 
-/// After a solve: true if the mean damage of the step or the role of open joints differs from what was solved
-/// for, so that the step has to be solved again. Then `memories` has the new values, of which none heals.
+/// After a solve: true if cracks end the step in another role than was solved for, or else its mean damage is
+/// another, so that the step has to be solved again. Then `memories` has the new values; no damage heals.
 bool refine_step(const Model& model, const State& state, const ContactSet& contacts, const StepProblem& step,
                  const ContactSolution& solution, const StepOptions& options, ContactMemories* memories);
 
-/// After a solve that found a motion: true if it closes pulled joints, which may stop it. They then bear in
-/// `memories`, and the step has to be solved again.
-bool let_closing_joints_bear(const StepProblem& step, const ContactSolution& motion, double h,
-                             ContactMemories* memories);
+/// After a solve that found a motion: true if it closes joints that pulled or opens joints that bore, which
+/// may stop it. They have their new role in `memories`, and the step has to be solved again.
+bool follow_motion(const StepProblem& step, const ContactSolution& motion, double h,
+                   ContactMemories* memories);
 
-/// Makes pulled joints bonded, for a proof that forces do not balance the loads whichever of them close.
-void let_joints_bear_and_pull(ContactMemories* memories);
+/// Makes cracked joints bonded, for a proof that forces do not balance the loads whichever of them bear or
+/// pull. True if there are any.
+bool let_joints_bear_and_pull(ContactMemories* memories);
 
 /// Inelastic velocity z of contact i, m/s.
 Vec3 inelastic_velocity(const ContactProblem& problem, int i, const ContactSolution& solution);

@@ -43,6 +43,35 @@ void EquilibriumPath::list_parted(Frame* frame) const {
   append_parted(built.set, contacts(), detector_.margin(), &frame->contacts);
 }
 
+namespace {
+
+/// True if no forces balance the loads whichever cracks bear or pull. `motion` (6 nb), if not empty, is tried
+/// as a proof first.
+bool moves_with_bonded_joints(const Model& model, const State& start, const ContactSet& contacts,
+                              const ContactMemories& bonded, const StaticOptions& options,
+                              const VecX& motion = {}) {
+  const ContactProblem problem = first_static_problem(model, start, contacts, bonded, options).problem;
+  MotionProof proof(problem, problem.h * applied_forces(model, start, start.time + options.time_advance));
+  return (motion.size() > 0 && proof.next_to(motion)) || proof.search() == MotionProof::Answer::moves;
+}
+
+/// True if cracks that the motion closes or opens may stop it: they then bear or pull in `memories`. It is
+/// proven only if it also moves with all of them bonded.
+bool may_be_stopped(const Model& model, const State& start, const ContactSet& contacts,
+                    const StaticOptions& options, ContactMemories* memories, StaticSolution* motion) {
+  ContactMemories bonded = *memories;
+  if (!let_joints_bear_and_pull(&bonded) ||
+      moves_with_bonded_joints(model, start, contacts, bonded, options, motion->increment))
+    return false;
+  if (follow_motion(motion->step, motion->step_solution, motion->h, memories)) return true;
+  if (motion->proven)
+    motion->message = "blocks move, without proof: cracks that carry nothing would resist if they closed";
+  motion->proven = false;
+  return false;
+}
+
+}  // namespace
+
 StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
                               const StaticOptions& options, ContactMemories* memories, int* solves) {
   constexpr int kMostSolves = 200;  // a joint that breaks brittly breaks its neighbours one after the other
@@ -60,13 +89,13 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
                  ? refine_step(model, start, contacts, solution.step, solution.step_solution,
                                static_step_options(found, solution.h), memories)
                  : solution.outcome == StaticOutcome::moving &&
-                       let_closing_joints_bear(solution.step, solution.step_solution, solution.h, memories));
+                       may_be_stopped(model, start, contacts, found, memories, &solution));
   }
   solution.iterations = iterations;
   if (again) {
     solution.outcome = StaticOutcome::unconverged;
     solution.message =
-        fmt::format("the damage of the joints still changed after {} of one step", counted(*solves, "solve"));
+        fmt::format("what the joints bear still changed after {} of one step", counted(*solves, "solve"));
   }
   return solution;
 }
@@ -112,9 +141,7 @@ bool EquilibriumPath::surely_moves_at(double value) {
     begin_step(contacts_, &memories_);
     let_joints_bear_and_pull(&memories_);
   }
-  const ContactProblem problem = first_static_problem(model_, start_, contacts_, memories_, options_).problem;
-  MotionProof proof(problem, problem.h * applied_forces(model_, start_, value));
-  return proof.search() == MotionProof::Answer::moves;
+  return moves_with_bonded_joints(model_, start_, contacts_, memories_, options_);
 }
 
 StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_advance) {

@@ -143,36 +143,6 @@ TEST(Path, TheForceOfASupportCountsItsTies) {
   EXPECT_NEAR(floor + above, 2.0 * kWeight, 1e-3 * kWeight) << floor << " " << above;
 }
 
-// A joint opened to half of its damage, closed again and opened again: it closes without force until its
-// faces touch, pushes elastically, and pulls again from where it stopped, with half of its strength.
-TEST(Path, ACrackClosesAndOpensAgain) {
-  Case scene = couplet_case(60);
-  const double broken = 2.0 * kEnergy.tension / kStrength.tension;
-  scene.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
-                                  .displacement = {0, 0, 0.5 * broken},
-                                  .time = TableInTime{"", {0, 1, 2, 3}, {0, 1, -0.01, 1.5}}});
-  scene.analysis.path.end = 3.0;
-  scene.analysis.path.control->direction = Vec3::UnitZ();
-  const PathResult result = run(scene, couplet());
-  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
-  const double pull = kStrength.tension * kArea;
-  double at_one = 0.0, closed = 0.0, reopened = 0.0, halfway = 0.0;
-  for (const auto& row : result.rows) {
-    if (std::abs(row[0] - 1.0) < 1e-6) at_one = row[2];
-    if (std::abs(row[0] - 1.5) < 1e-6) halfway = row[2];
-    if (std::abs(row[0] - 2.0) < 1e-6) closed = row[2];
-    if (row[0] > 2.0) reopened = std::max(reopened, row[2]);
-  }
-  // The strength is the mean over the last of 20 steps to half the opening, less the elongation of three
-  // joints.
-  const double elastic = 3 * kCompliance * kStrength.tension / broken;
-  EXPECT_NEAR(at_one, (0.5 + 0.5 * 0.5 / 20) / (1 - elastic) * pull + kWeight, 0.003 * pull);
-  EXPECT_NEAR(halfway, kWeight, 1e-3 * kWeight);
-  EXPECT_NEAR(closed, kWeight - 0.005 * broken / (3 * kCompliance) * kArea, 1e-3 * pull);
-  EXPECT_NEAR(reopened, 0.5 * pull, 0.05 * pull);
-  for (size_t k = 1; k < result.rows.size(); ++k) EXPECT_GE(result.rows[k][3], result.rows[k - 1][3] - 1e-9);
-}
-
 // Two blocks lean on each other over a span of 2 m. Their supports spread by s each: both turn about the
 // inner edges of their springings by the angle at which the crown hinge, 1 m above, comes down, and the crown
 // opens by 2 d sin(angle) at its lower edge. Faces farther apart than the margin are no contacts any more;
@@ -274,25 +244,6 @@ TEST(Path, RefusesAControlBlockThatDoesNotExist) {
   Case scene = couplet_case(5);
   scene.analysis.path.control->block = BlockRef{7};
   EXPECT_THROW(run(scene, couplet()), InputError);
-}
-
-// A block of 1 x 1 x 2 m and 40 kN is pushed at its top by 6 kN to one side, then to the other in one step; it
-// tips at 10 kN. The bed opens on one side, and bears there again: with a strength of 1 Pa as without.
-TEST(Path, AnOpenedJointWithTensileStrengthBearsWhenItCloses) {
-  for (const double tension : {0.0, 1.0, 100.0}) {
-    Case scene = testing::make_case(0.6, 1e-11, 0.01);
-    scene.joints.strength = {tension, 1e4};
-    scene.contact.subdivide = 4;
-    const Assembly block = testing::box_on_floor({1, 1, 2}, 20e3 / 9.81);
-    const TableInTime time{"", {0, 1, 1.000001, 2}, {0, 1, -1, -1}};
-    scene.loads.forces = {{BlockRef{1}, Vec3(0, 0, 2), Vec3(6e3, 0, 0), time}};
-    scene.analysis.type = AnalysisType::path;
-    scene.analysis.path.end = 2.0;
-    scene.analysis.path.steps = 4;
-    scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
-    const PathResult result = run(scene, block);
-    EXPECT_EQ(result.summary.status, Status::stable) << tension << ": " << result.summary.message;
-  }
 }
 
 }  // namespace
