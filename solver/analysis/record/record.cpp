@@ -143,9 +143,13 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     const Contact& contact = contacts.points[i];
     const Patch& patch = contacts.patches[contact.patch];
-    const Vec3& force = forces.contacts[i];
-    const double normal_force = contact.normal.dot(force);
+    Vec3 force = forces.contacts[i];
+    double normal_force = contact.normal.dot(force);
     const double tangential_force = (force - normal_force * contact.normal).norm();
+    if (std::abs(normal_force) <= 2.0 * kNoPush) {  // rounding included
+      force -= normal_force * contact.normal;
+      normal_force = 0.0;
+    }
     const JointLaw law = joint_law(model, contacts, contact, state.time);
     const double cohesion = (1.0 - memories.of(i).joint.step_damage) * law.strength.cohesion;
     const double limit = cohesion + law.mu * normal_force;

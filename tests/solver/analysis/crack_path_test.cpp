@@ -111,5 +111,22 @@ TEST(Path, BearsAgainWhatItBore) {
   EXPECT_NEAR(twice.largest_force(), once.largest_force(), 1e4 * 13.0 / 20 / 64 * 2);
 }
 
+// Points between the faces of a crack that closes carry nothing, and count for the widest gap.
+TEST(Path, PointsThatAreClosingCarryNothing) {
+  const PathResult result =
+      run(pulled_cube({0, 5, -1, 4}), testing::box_on_floor({1, 1, 1}, 1e4 / testing::kG));
+  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  for (size_t k = 0; k < result.frames.size(); ++k) {
+    const ContactTable& contacts = result.frames[k].contacts;
+    double widest = 0.0;
+    for (int i = 0; i < contacts.size(); ++i) {
+      const double n = contacts.normal_force[i];
+      EXPECT_TRUE(n == 0.0 || std::abs(n) > 1e-100) << n << " N at " << result.rows[k][0] << " s";
+      if (!(n > 1e-100)) widest = std::max(widest, contacts.crack_opening[i]);
+    }
+    EXPECT_NEAR(result.rows[k][6], widest, 1e-8 * widest) << "nine digits in the table";
+  }
+}
+
 }  // namespace
 }  // namespace cupola::path_test
