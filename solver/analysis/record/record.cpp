@@ -255,11 +255,11 @@ void summarize_frame(const Frame& frame, const Model& model, Summary* summary) {
   summary->slipping_contacts = 0;
   summary->max_penetration_m = 0.0;
   double largest_force = 0.0;
-  for (const double force : contacts.normal_force) largest_force = std::max(largest_force, force);
+  for (const Vec3& force : contacts.force) largest_force = std::max(largest_force, force.norm());
   for (int i = 0; i < contacts.size(); ++i) {
     summary->joints = std::max(summary->joints, contacts.joint[i] + 1);
     summary->max_penetration_m = std::max(summary->max_penetration_m, -contacts.gap[i]);
-    if (contacts.friction_use[i] >= kSlipping && contacts.normal_force[i] > kNegligibleShare * largest_force)
+    if (contacts.friction_use[i] >= kSlipping && contacts.force[i].norm() > kNegligibleShare * largest_force)
       ++summary->slipping_contacts;
   }
   summary->weight_N = model.free_weight;

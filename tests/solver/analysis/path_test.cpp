@@ -74,6 +74,27 @@ TEST(Path, AShearedCoupletDissipatesItsFractureEnergy) {
   }
 }
 
+// Pulled and sheared beyond its cohesion, the bed slips at all of its points, although none presses.
+TEST(Path, CountsThePointsThatSlipUnderPull) {
+  Case scene = couplet_case(5);
+  scene.joints.failure = JointFailure::plastic;
+  const double elastic = 3 * kCompliance * kStrength.cohesion;  // m, of three joints
+  scene.supports.moves.push_back({.region = {.blocks = {BlockRef{3}}},
+                                  .displacement = {3 * elastic, 0, 0.2 * elastic},
+                                  .time = RampInTime{}});
+  const PathResult result = run(scene, couplet());
+  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  const ContactTable& contacts = result.frames.back().contacts;
+  int points = 0;
+  for (int i = 0; i < contacts.size(); ++i) {
+    if (contacts.kind[i] != JointKind::bed) continue;
+    ++points;
+    EXPECT_LT(contacts.normal_force[i], 0.0);
+    EXPECT_GT(contacts.slip[i], 0.0);
+  }
+  EXPECT_EQ(result.summary.slipping_contacts, points);
+}
+
 // A path whose case names no control gives the table of one that names the support that moves farthest, or the
 // block whose load grows most.
 TEST(Path, ChoosesItsControl) {
