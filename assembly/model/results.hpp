@@ -54,9 +54,9 @@ struct ContactTable {
   std::vector<double> law_violation;
   /// N, cohesion left x area + mu x normal force; empty if all joints are dry.
   std::vector<double> friction_limit;
-  /// Pressure over the compressive strength, or pull over the tensile strength; empty if all joints are dry.
+  /// Pressure over the compressive strength, or pull over the tensile one; NaN if dry, empty if all are dry.
   std::vector<double> strength_use;
-  /// Share of tension and cohesion that is lost, in [0, 1]; empty if all joints are dry.
+  /// Share of tension and cohesion that is lost, in [0, 1]; NaN without either, empty if all joints are dry.
   std::vector<double> damage;
   /// m, >= 0: distance of the faces beyond the elastic elongation of the joint; empty if all joints are dry.
   std::vector<double> crack_opening;

@@ -34,10 +34,11 @@ template <class Visitor>
 void strength_fields(Visitor&& visit, Is<ContactTable> auto& c) {
   visit("friction_limit_N", "N", "largest tangential force: cohesion left times area + mu times normal force",
         c.friction_limit);
-  visit("strength_use", "",
-        "pressure over the compressive strength, or pull over the tensile strength that is left",
-        c.strength_use);
-  visit("damage", "", "share of tension and cohesion that is lost, 0 to 1", c.damage);
+  visit(
+      "strength_use", "",
+      "pressure over the compressive strength, or pull over the tensile strength that is left; `nan` if dry",
+      c.strength_use);
+  visit("damage", "", "share of tension and cohesion that is lost, 0 to 1; `nan` without either", c.damage);
   visit("crack_opening_m", "m",
         "distance of the faces beyond the elastic elongation of the joint; 0 where closed", c.crack_opening);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -223,6 +224,7 @@ void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
   }
   double damage = 0.0, area = 0.0;
   for (int i = 0; i < frame.contacts.size() && !frame.contacts.damage.empty(); ++i) {
+    if (std::isnan(frame.contacts.damage[i])) continue;  // nothing to lose
     damage += frame.contacts.area[i] * frame.contacts.damage[i];
     area += frame.contacts.area[i];
   }

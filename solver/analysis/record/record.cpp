@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <tuple>
@@ -15,6 +16,13 @@ namespace {
 
 constexpr double kSlipping = 1.0 - 1e-6;  // friction use from which a contact counts as slipping
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// True if there is tension or cohesion to lose.
+bool bonds(const JointLaw& law) {
+  return law.strength.tension > 0.0 || law.strength.cohesion > 0.0;
+}
+
 /// Share of the compressive strength that a push uses, or of the tensile strength that a pull uses, which
 /// friction ends at cohesion / mu.
 double strength_use(const JointStrength& strength, double mu, double normal_force) {
@@ -27,8 +35,9 @@ void add_strength(const JointLaw& law, const ContactMemory& memory, double gap, 
                   ContactTable* table) {
   JointStrength strength = bond_in_step(law, memory.joint).strength;
   strength.compression = law.strength.compression;
-  table->strength_use.push_back(strength_use(strength, law.mu, normal_force));
-  table->damage.push_back(memory.joint.damage);
+  const bool dry = law.strength == JointStrength{};
+  table->strength_use.push_back(dry ? kNone : strength_use(strength, law.mu, normal_force));
+  table->damage.push_back(bonds(law) ? memory.joint.damage : kNone);
   table->crack_opening.push_back(crack_opening(gap, memory));
 }
 
@@ -209,7 +218,9 @@ void set_contact_poses_if_moved(const Model& model, const State& found, Frame* f
   if (!std::ranges::equal(found.poses, built, stands)) set_contact_poses(model, found, frame);
 }
 
-void append_parted(const ContactSet& built, const ContactSet& found, double margin, ContactTable* table) {
+void append_parted(const Model& model, const ContactSet& built, const ContactSet& found, double margin,
+                   Frame* frame) {
+  ContactTable* table = &frame->contacts;
   std::set<ContactId> held;
   for (const Contact& contact : found.points) held.insert(contact.id);
   std::map<std::tuple<int, int, JointKind>, int> joints;
@@ -239,8 +250,9 @@ void append_parted(const ContactSet& built, const ContactSet& found, double marg
       zero->push_back(0.0);
     if (!has_strength) continue;
     table->friction_limit.push_back(0.0);
-    table->strength_use.push_back(0.0);
-    table->damage.push_back(1.0);
+    const JointLaw law = joint_law(model, built, contact, frame->time);
+    table->strength_use.push_back(law.strength == JointStrength{} ? kNone : 0.0);
+    table->damage.push_back(bonds(law) ? 1.0 : kNone);
     table->crack_opening.push_back(contact.gap);
   }
 }

@@ -56,7 +56,8 @@ void set_contact_poses_if_moved(const Model& model, const State& found, Frame* f
 
 /// Appends, without force, the points of `built`, the contacts as built in the poses of the frame, that stand
 /// farther apart than `margin` (m) and that `found`, the contacts of the frame, no longer holds.
-void append_parted(const ContactSet& built, const ContactSet& found, double margin, ContactTable* table);
+void append_parted(const Model& model, const ContactSet& built, const ContactSet& found, double margin,
+                   Frame* frame);
 
 /// Sets the fields of the summary that follow from the contacts and blocks of a frame, except displacement
 /// and speed, whose meaning depends on the analysis.

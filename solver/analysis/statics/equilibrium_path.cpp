@@ -40,7 +40,7 @@ void EquilibriumPath::list_parted(Frame* frame) const {
   const std::vector<Pose>& poses = loaded_.state.poses;
   move_contacts(poses, moved_contacts(built.set, std::vector<char>(poses.size(), 1)), &built);
   if (!model_.heat.empty()) built.set = model_.heat.heated(std::move(built.set), poses, loaded_.state.time);
-  append_parted(built.set, contacts(), detector_.margin(), &frame->contacts);
+  append_parted(model_, built.set, contacts(), detector_.margin(), frame);
 }
 
 namespace {

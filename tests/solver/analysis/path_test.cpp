@@ -95,6 +95,29 @@ TEST(Path, CountsThePointsThatSlipUnderPull) {
   EXPECT_EQ(result.summary.slipping_contacts, points);
 }
 
+// A dry bed between joints with strength parts by more than the margin: nothing is damaged.
+TEST(Path, ADryJointThatPartsHasNoDamage) {
+  Case scene = couplet_case(4);
+  scene.joints.failure = JointFailure::plastic;
+  scene.joints.fracture_energy.reset();
+  scene.joints.strength = {};
+  scene.contact.margin = 5e-3;  // m
+  scene.supports.moves.push_back(
+      {.region = {.blocks = {BlockRef{3}}}, .displacement = {0, 0, 8e-3}, .time = RampInTime{}});
+  const PathResult result = run(scene, couplet());
+  ASSERT_EQ(result.summary.status, Status::stable) << result.summary.message;
+  for (const auto& row : result.rows) EXPECT_EQ(row[4], 0.0);
+  const ContactTable& contacts = result.frames.back().contacts;
+  double widest = 0.0;
+  for (int i = 0; i < contacts.size(); ++i) {
+    const bool dry = contacts.kind[i] == JointKind::bed;
+    EXPECT_EQ(std::isnan(contacts.damage[i]), dry);
+    EXPECT_EQ(std::isnan(contacts.strength_use[i]), dry);
+    widest = std::max(widest, contacts.gap[i]);
+  }
+  EXPECT_GT(widest, scene.contact.margin);
+}
+
 // A path whose case names no control gives the table of one that names the support that moves farthest, or the
 // block whose load grows most.
 TEST(Path, ChoosesItsControl) {
