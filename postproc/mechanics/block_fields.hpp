@@ -21,7 +21,7 @@ struct BlockFields {
   double hoop_force = 0.0;        ///< N per metre of meridian, compression positive
   double friction_use = kNone;    ///< largest friction utilisation of its loaded joints; NaN without any
   double kern = kNone;            ///< largest kern utilisation of its loaded bed joints; NaN without any
-  double opening = 0.0;           ///< m, largest gap at its joints
+  double opening = 0.0;           ///< m, widest opening of its joints
   double slip = 0.0;              ///< m, largest accumulated slip at its joints
 };
 

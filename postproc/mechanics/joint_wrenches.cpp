@@ -88,7 +88,9 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     if (!contacts.strength_use.empty())
       joint->strength_use = std::fmax(joint->strength_use, contacts.strength_use[*row]);  // NaN at first
     if (!contacts.damage.empty()) damaged_area += contacts.area[*row] * contacts.damage[*row];
-    joint->opening = std::max(joint->opening, contacts.gap[*row]);
+    // A joint that pulls elongates elastically before it cracks, and crushed faces part before they lose force.
+    const double opening = (contacts.crack_opening.empty() ? contacts.gap : contacts.crack_opening)[*row];
+    joint->opening = std::max(joint->opening, opening);
     joint->slip = std::max(joint->slip, contacts.slip[*row]);
   }
   joint->centroid = joint->area > 0.0 ? Vec3(joint->centroid / joint->area) : joint->patch.centroid;

@@ -37,13 +37,13 @@ struct JointWrench : Joint {
   /// |tangential force| / (cohesion x area + mu x normal force), of the resultant: it does not depend on how
   /// its points share the force, and does not count turning about the normal. 1: the joint slides.
   double friction_use = 0.0;
-  double opening = 0.0;           ///< m, largest gap of its points, >= 0
+  double opening = 0.0;           ///< m, widest at its points, >= 0: gap, or crack with strength
   double open_share = 0.0;        ///< share of the area whose points carry no normal force
   double slip = 0.0;              ///< m, largest accumulated slip of its points
   double largest_pressure = 0.0;  ///< Pa, largest normal force of a point over its area
   double strength_use =
       std::numeric_limits<double>::quiet_NaN();              ///< largest of its points; NaN in a dry joint
-  double damage = std::numeric_limits<double>::quiet_NaN();  ///< mean over the area; NaN in a dry joint
+  double damage = std::numeric_limits<double>::quiet_NaN();  ///< mean over the area; NaN without bond
   int contact_start = 0, num_contacts = 0;                   ///< into JointWrenches::contacts
 };
 

@@ -83,6 +83,21 @@ TEST(Cracks, AreNotTheElasticElongationOfAJoint) {
   EXPECT_EQ(cracks_of(contacts, e.last.joints).size(), 3u);
 }
 
+// The opening of a joint and of the blocks beside it is that of its crack: faces that were crushed by 1 mm are
+// farther apart than their gap, and those of a joint that pulls closer.
+TEST(Cracks, AreAsWideAsTheOpeningOfTheirJoint) {
+  const Assembly a = test::column(3);
+  for (const double apart : {0.0, 3e-3}) {
+    Frame frame = hinged(2e-3);
+    ContactTable& contacts = frame.contacts;
+    contacts.friction_limit = contacts.strength_use = contacts.damage = contacts.crack_opening = contacts.gap;
+    for (double& opening : contacts.crack_opening) opening = opening > 0.0 ? apart : 0.0;
+    const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                         test::fresh_folder("results"));
+    for (const JointWrench& joint : e.last.joints.wrenches) EXPECT_EQ(joint.opening, apart);
+  }
+}
+
 TEST(Cracks, NeedAGap) {
   const Evaluation e = evaluated_with(0.0);
   EXPECT_TRUE(cracks_of(e.last.frame.contacts, e.last.joints).empty());
