@@ -1,6 +1,8 @@
 #include "postproc/export_run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -32,6 +34,26 @@ ExportedJoint exported(const JointWrench& joint, const JointWrenches& joints, co
   return out;
 }
 
+bool have_compressive_strength(const Joints& joints) {
+  const auto has = [](const JointLawChange& law) { return law.compressive_strength.has_value(); };
+  return joints.strength.compression != JointStrength{}.compression ||
+         std::ranges::any_of(joints.kinds(), [&](const auto& kind) { return has(*kind.second); }) ||
+         std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return has(group.law); });
+}
+
+/// What an assembly cannot hold of the joints of a run that has moved; empty if nothing is lost.
+std::string lost_of_joints(const ContactTable& contacts, const Joints& joints) {
+  double damage = 0.0;
+  for (const double of_point : contacts.damage) damage = std::fmax(damage, of_point);
+  const bool may_be_crushed = have_compressive_strength(joints);
+  if (damage == 0.0 && !may_be_crushed) return "";
+  return fmt::format(
+      "joints are exported as new, without their damage (up to {:.2g}){}: what they bear in other analyses "
+      "of "
+      "the export can be too much",
+      damage, may_be_crushed ? " and crushing" : "");
+}
+
 }  // namespace
 
 ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) {
@@ -50,6 +72,8 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   if (moves) {
     model.poses = poses_of(e.assembly, e.last.frame.blocks);
     model.yielded = yielded_of(e.assembly, e.last.frame.ties, e.scene.ties.pairs.size());
+    if (std::string lost = lost_of_joints(e.last.frame.contacts, e.scene.joints); !lost.empty())
+      warnings.push_back(std::move(lost));
   }
   if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)

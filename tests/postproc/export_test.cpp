@@ -1,5 +1,7 @@
 // Joint forces that were exported are those of the table of joints.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -99,6 +101,38 @@ TEST(ExportRun, WarnsOfBlocksThatTheLastStageHasNotLaid) {
             ExitCode::done);
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find("1 block that the last stage has not laid"), std::string::npos) << said;
+}
+
+// An assembly holds no damage and no crushing of joints: said where a path has left some.
+TEST(ExportRun, WarnsOfDamageThatIsLost) {
+  const Assembly a = test::column(3);
+  const auto said_of = [&a](double damage, bool crushes) {
+    const std::string folder = test::fresh_folder("exported");
+    write_assembly(folder + "/assembly.vtu", a);
+    ResultsWriter writer(folder + "/results", content_hash(a));
+    Summary summary = test::column_summary(a);
+    summary.analysis = AnalysisType::path;
+    Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3);
+    set_role(FrameRole::path, "", &frame);
+    ContactTable& contacts = frame.contacts;
+    const std::vector<double> zero(static_cast<size_t>(contacts.size()), 0.0);
+    contacts.friction_limit = contacts.strength_use = contacts.damage = contacts.crack_opening = zero;
+    contacts.damage[2] = damage;
+    contacts.damage[3] = std::nan("");  // a dry joint
+    writer.write_frame(frame);
+    writer.write_summary(summary);
+    Case scene = test::column_case();
+    scene.analysis.type = AnalysisType::path;
+    scene.joints.compliance.per = Compliance::Per::area;
+    scene.joints.strength.cohesion = 1e5;
+    if (crushes) scene.joints.strength.compression = 1e6;
+    testing::internal::CaptureStderr();
+    export_run({scene, folder + "/assembly.vtu", folder + "/results"}, folder + "/column.vtu", true);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said_of(0.0, false).find("exported as new"), std::string::npos);
+  EXPECT_NE(said_of(0.75, false).find("without their damage (up to 0.75):"), std::string::npos);
+  EXPECT_NE(said_of(0.0, true).find("(up to 0) and crushing:"), std::string::npos);
 }
 
 }  // namespace
