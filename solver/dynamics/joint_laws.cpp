@@ -2,28 +2,24 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "assembly/base/error.hpp"
 
 namespace cupola {
 namespace {
 
-/// The law of a class of joints while the table is made.
-struct ClassLaw {
-  JointLaw law;
-  FractureEnergy energy;  ///< N/m
-};
-
-/// Friction leaves no tension beyond cohesion / friction, so that less opening dissipates the energy.
-CrackLengths crack_lengths(const ClassLaw& joint, JointFailure failure) {
+/// Of a law with strengths in Pa. Friction leaves no tension beyond cohesion / friction, so that less opening
+/// dissipates the energy.
+CrackLengths crack_lengths(const JointLaw& law, const FractureEnergy& energy, JointFailure failure) {
   if (failure == JointFailure::brittle) return {0.0, 0.0};
   if (failure == JointFailure::plastic) return {};
-  const auto& [tension, cohesion, compression] = joint.law.strength;
-  const double pull = joint.law.mu > 0.0 ? std::min(tension, cohesion / joint.law.mu) : tension;
-  return {2.0 * joint.energy.tension / pull, 2.0 * joint.energy.shear / cohesion};
+  const auto& [tension, cohesion, compression] = law.strength;
+  const double pull = law.mu > 0.0 ? std::min(tension, cohesion / law.mu) : tension;
+  return {2.0 * energy.tension / pull, 2.0 * energy.shear / cohesion};
 }
 
-ClassLaw apply_change(ClassLaw joint, const JointLawChange& change) {
+JointTable::ClassLaw apply_change(JointTable::ClassLaw joint, const JointLawChange& change) {
   JointLaw& law = joint.law;
   law.mu = change.friction.value_or(law.mu);
   law.compliance_normal = change.normal.value_or(law.compliance_normal);
@@ -122,7 +118,9 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch) {
 }
 
 JointTable::JointTable(const Joints& joints, int num_rings)
-    : per_area_(joints.compliance.per == Compliance::Per::area), has_strength_(joints.have_strength()) {
+    : failure_(joints.failure),
+      per_area_(joints.compliance.per == Compliance::Per::area),
+      has_strength_(joints.have_strength()) {
   if (const auto& field = joints.field) {
     const auto make = [&field](const char* quantity, double variation) {
       return RandomField(field->seed, quantity, field->correlation_length, variation);
@@ -143,17 +141,15 @@ JointTable::JointTable(const Joints& joints, int num_rings)
       for (int ring = std::max(0, group.from); ring <= std::min(group.to, num_rings - 1); ++ring)
         rings[ring] = apply_change(rings[ring], group.law);
     }
-    for (ClassLaw& joint : rings) {
-      joint.law.crack = crack_lengths(joint, joints.failure);
-      soften_half_rigid(&joint.law);
-      laws_[k].push_back(joint.law);
-    }
+    for (ClassLaw& joint : rings) soften_half_rigid(&joint.law);
+    laws_[k] = std::move(rings);
   }
 }
 
 JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area, int multiplicity) const {
-  const std::vector<JointLaw>& rings = laws_[static_cast<int>(joint_class(assembly, patch))];
-  JointLaw law = rings[std::clamp(patch.ring, 0, static_cast<int>(rings.size()) - 1)];
+  const std::vector<ClassLaw>& rings = laws_[static_cast<int>(joint_class(assembly, patch))];
+  const ClassLaw& of_class = rings[std::clamp(patch.ring, 0, static_cast<int>(rings.size()) - 1)];
+  JointLaw law = of_class.law;
   CUPOLA_ASSERT(!rings.empty() && multiplicity >= 1);
   CUPOLA_ASSERT(!per_area_ || area > 0.0);
   const double share = per_area_ ? area : multiplicity;
@@ -166,6 +162,7 @@ JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double ar
     law.compliance_tangential *= factor;
   }
   if (!strength_.is_constant()) law.strength = times(law.strength, strength_.mean_over(patch.polygon));
+  law.crack = crack_lengths(law, of_class.energy, failure_);
   if (has_strength_) law.strength = patch.area > 0.0 ? times(law.strength, area) : JointStrength{};
   return law;
 }

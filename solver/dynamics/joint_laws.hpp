@@ -39,6 +39,11 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch);
 /// the general law of the case.
 class JointTable {
  public:
+  struct ClassLaw {
+    JointLaw law;           ///< but for its crack lengths
+    FractureEnergy energy;  ///< N/m
+  };
+
   JointTable() = default;
   explicit JointTable(const Joints& joints, int num_rings);
 
@@ -48,8 +53,9 @@ class JointTable {
   JointLaw law(const Assembly& assembly, const Patch& patch, double area, int multiplicity = 1) const;
 
  private:
-  std::array<std::vector<JointLaw>, kNumJointClasses> laws_;  // by class, then ring
+  std::array<std::vector<ClassLaw>, kNumJointClasses> laws_;  // by class, then ring
   RandomField friction_, strength_, compliance_;
+  JointFailure failure_ = JointFailure::plastic;
   bool per_area_ = false, has_strength_ = false;
 };
 

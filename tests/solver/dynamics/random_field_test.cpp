@@ -108,5 +108,26 @@ TEST(RandomField, MultipliesTheLawsOfJoints) {
       << "the remembered mean is the mean";
 }
 
+// The strengths of softening joints vary, their fracture energies do not: 2 G = strength times length. Where
+// friction ends the pull at cohesion / mu, that varies with friction, too.
+TEST(RandomField, LeavesFractureEnergiesAsTheyAre) {
+  Assembly assembly;
+  assembly.blocks.resize(2);
+  const Patch patch{0, 1, JointKind::bed, 0, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 1.0};
+  Joints joints;
+  joints.friction = 0.5;
+  joints.strength = {.tension = 2e5, .cohesion = 4e5};
+  joints.failure = JointFailure::softening;
+  joints.fracture_energy = FractureEnergy{50.0, 100.0};
+  joints.field = JointField{3, 2.0, 0.2, 0.5, 0.0};
+  for (const double cohesion : {4e5, 0.5e5}) {
+    joints.strength.cohesion = cohesion;
+    const JointLaw law = JointTable(joints, 1).law(assembly, patch, 1.0);
+    const double pull = std::min(law.strength.tension, law.strength.cohesion / law.mu);
+    EXPECT_DOUBLE_EQ(pull * law.crack.opening, 2.0 * 50.0) << cohesion;
+    EXPECT_DOUBLE_EQ(law.strength.cohesion * law.crack.slip, 2.0 * 100.0) << cohesion;
+  }
+}
+
 }  // namespace
 }  // namespace cupola::random_field_test
