@@ -56,18 +56,27 @@ void scale_joints(const Assembly& assembly, double extent, ContactSet* contacts)
   }
 }
 
+/// The key that gives some joints no friction.
+std::string key_without_friction(const Joints& joints) {
+  if (joints.friction == 0.0) return "joints.friction";
+  for (const auto& [key, law] : joints.kinds())
+    if (law->friction == 0.0) return fmt::format("joints.{}.friction", key);
+  return "the friction of joints.rings";
+}
+
 /// The shear that such a joint carries does not depend on its normal force: no cone.
-void require_friction_with_cohesion(const ContactProblem& problem, const Analysis& analysis) {
+void require_friction_with_cohesion(const ContactProblem& problem, const Case& scene) {
   using enum LimitSearch::Parameter;
+  const Analysis& analysis = scene.analysis;
   const LimitSearch::Parameter sought = analysis.limit.parameter;
   const bool can_bisect =
       analysis.type == AnalysisType::limit && sought != joint_extent && sought != peak_stress;
   for (int i = 0; i < problem.num_contacts() && !problem.strength.empty(); ++i)
     if (problem.strength[i].cohesion > 0.0 && problem.mu[i] == 0.0)
-      throw InputError(
-          fmt::format("joints.cohesion: ranges, robustness and direct limits require friction > 0 in joints "
-                      "with cohesion; give joints.friction{}",
-                      can_bisect ? ", or analysis.limit.method: bisection" : ""));
+      throw InputError(fmt::format(
+          "joints.cohesion: ranges, robustness and direct limits require friction > 0 in joints "
+          "with cohesion; give {}{}",
+          key_without_friction(scene.joints), can_bisect ? ", or analysis.limit.method: bisection" : ""));
 }
 
 }  // namespace
@@ -88,7 +97,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   ConicProblem& problem = rigid.problem;
   problem.contacts =
       build_step_problem(rigid.model, rigid.start, rigid.contacts, rigid.memories, step).problem;
-  require_friction_with_cohesion(problem.contacts, scene.analysis);
+  require_friction_with_cohesion(problem.contacts, scene);
   problem.load = applied_forces(rigid.model, rigid.start, rigid.start.time);
   problem.cost = VecX::Zero(3 * problem.contacts.num_contacts());
   problem.load_columns = MatX(problem.load.size(), 0);

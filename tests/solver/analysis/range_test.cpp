@@ -377,6 +377,11 @@ TEST(Range, CohesionWithoutFrictionIsRefusedWithAdviceThatHelps) {
   EXPECT_EQ(refusal(AnalysisType::limit), range + ", or analysis.limit.method: bisection");
   scene.analysis.limit.parameter = LimitSearch::Parameter::joint_extent;
   EXPECT_EQ(refusal(AnalysisType::limit), range) << "which bisection does not apply to";
+  scene.joints.friction = 0.4;
+  scene.joints.base.emplace();
+  scene.joints.base->friction = 0.0;
+  const std::string of_class = refusal(AnalysisType::range);
+  EXPECT_TRUE(of_class.ends_with("give joints.base.friction")) << of_class;
 }
 
 }  // namespace
