@@ -17,7 +17,7 @@ constexpr std::array kGroupNames{"load on top", "fill", "loads on faces", "force
 
 /// `time`: of a PointForce, see load_times().
 LoadGroup group_of(const Loads& loads, int time) {
-  if (time == PointForce::kDeadLoad) return LoadGroup::on_top;
+  if (time == PointForce::kDeadLoad || time == PointForce::kSteady) return LoadGroup::on_top;
   const size_t number = static_cast<size_t>(time);
   if (number < loads.forces.size()) return LoadGroup::forces;
   return loads.faces[number - loads.forces.size()].fill ? LoadGroup::fill : LoadGroup::on_faces;
@@ -66,7 +66,7 @@ std::string horizontal_loads(const Evaluation& e) {
 
 std::string weight_text(const Evaluation& e) {
   const double of_case = e.acting.gravity.norm(), full = e.summary.weight_N;
-  const double acting = of_case > 0.0 ? full * e.last.gravity.norm() / of_case : full;
+  const double acting = of_case > 0.0 ? full * (e.last.gravity - e.acting.pull).norm() / of_case : full;
   return force_text(acting) + (alike(acting, full) ? "" : " of " + force_text(full));
 }
 
