@@ -40,10 +40,10 @@ void require_equal_tops(const Assembly& assembly, const std::vector<LoadedFace>&
   const auto [least, greatest] =
       std::ranges::minmax_element(areas, {}, [](const auto& of_sheet) { return of_sheet.second; });
   if (greatest->second - least->second > kEqual * greatest->second)
-    throw InputError(fmt::format(
-        "loads.{}: stands on one dome, but both {} and {} have faces of kind top; give it to one as "
-        "loads.faces: [{{kind: top, member: NAME, traction: [0, 0, -p]}}], p in N/m2",
-        key, least->first->name, greatest->first->name));
+    throw InputError(
+        fmt::format("loads.{}: stands on one dome, but faces of kind top are on {} and {}; give it to one as "
+                    "loads.faces: [{{kind: top, member: NAME, traction: [0, 0, -p]}}], p in N/m2",
+                    key, least->first->name, greatest->first->name));
 }
 
 /// The tops of all members, or those of one kind if there are others.

@@ -324,7 +324,7 @@ TEST(LoadsOnTops, ALanternWithoutItsDomeIsRefused) {
   const auto with_eye = [&](const std::string& eye) {
     return std::string(second).replace(second.find("EYE"), 3, eye);
   };
-  EXPECT_NE(refusal(dome_beside(with_eye("0.4"), "eye: 0.5", lantern)).find("both small and dome have"),
+  EXPECT_NE(refusal(dome_beside(with_eye("0.4"), "eye: 0.5", lantern)).find("top are on small and dome;"),
             std::string::npos)
       << refusal(dome_beside(with_eye("0.4"), "eye: 0.5", lantern));
 }
