@@ -9,6 +9,7 @@ The largest forces of the tests are second-hand: P. B. Lourenco (1996), Computat
 
 import csv
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -36,16 +37,6 @@ def joints(run):
     return [r for r in csv.DictReader((run / "post/joints.csv").open())]
 
 
-def cells(run, label, bricks, pressure, test):
-    curve = path(run)
-    at, largest = max(curve, key=lambda p: p[1])
-    post = json.loads((run / "post/summary.json").read_text())
-    broken = sum(split(r) and float(r["opening_m"]) > OPEN for r in joints(run)) if "split" in bricks else ""
-    forces = [f"{force_at(curve, mm):.1f}" if curve[-1][0] >= mm - 1e-6 else "" for mm in (0.5, 1, 2, 3, 4)]
-    return [label, bricks, f"{pressure:.2f}", *forces, f"{largest:.1f}", f"{at:.2f}", f"{test}", f"{largest / test:.2f}", str(broken),
-            f"{post['crack_length_m']:.2f}", f"{1e3 * post['widest_crack_m']:.2f}"]
-
-
 def boxes():
     """name: (x0, x1, z0, z1) of the blocks, m."""
     corners, name = {}, ""
@@ -70,6 +61,17 @@ def crack_lines(run):
         common = (max(a[0], b[0]), max(a[2], b[2]), min(a[1], b[1]), min(a[3], b[3]))
         lines.append((*common, opening >= OPEN, min(6.0, 1 + 4e3 * max(opening, slip))))
     return lines
+
+
+def cells(run, label, bricks, pressure, test):
+    curve = path(run)
+    at, largest = max(curve, key=lambda p: p[1])
+    post = json.loads((run / "post/summary.json").read_text())
+    broken = sum(split(r) and float(r["opening_m"]) > OPEN for r in joints(run)) if "split" in bricks else ""
+    cracks = sum(math.hypot(x1 - x0, z1 - z0) for x0, z0, x1, z1, opens, _ in crack_lines(run) if opens)
+    forces = [f"{force_at(curve, mm):.1f}" if curve[-1][0] >= mm - 1e-6 else "" for mm in (0.5, 1, 2, 3, 4)]
+    return [label, bricks, f"{pressure:.2f}", *forces, f"{largest:.1f}", f"{at:.2f}", f"{test}", f"{largest / test:.2f}", str(broken),
+            f"{cracks:.2f}", f"{1e3 * post['widest_crack_m']:.2f}"]
 
 
 out, picture = pathlib.Path(sys.argv[1]), "docs/pictures/shear_walls.png"
