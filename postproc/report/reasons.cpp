@@ -74,7 +74,7 @@ bool limits_pressure(const Joints& joints) {
 /// The laws that joints have in the run: in stages of construction fresh mortar's, too.
 Joints laws_of(const Evaluation& e) {
   Joints joints = e.scene.joints;
-  if (e.summary.analysis != AnalysisType::staged) return joints;
+  if (!is_stage(e.last.frame.role)) return joints;
   const StagedConstruction& staged = e.scene.analysis.staged;
   if (staged.curing.empty()) joints.rings.push_back({.law = staged.fresh.law()});
   for (const CuringMortar& row : staged.curing) joints.rings.push_back({.law = row.law});
