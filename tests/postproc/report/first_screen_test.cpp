@@ -1,14 +1,10 @@
 #include "postproc/report/first_screen.hpp"
 
-#include <limits>
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "postproc/mechanics/joint_speeds.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/gives_way.hpp"
-#include "postproc/report/loads_text.hpp"
 #include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/worst_joints.hpp"

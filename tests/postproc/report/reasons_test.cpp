@@ -1,11 +1,9 @@
 // The sentences of the first screen: why it stands or falls, under which loads, and what is certain of it.
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "postproc/report/answers.hpp"
 #include "postproc/report/loads_text.hpp"
-#include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
 #include "tests/postproc/scene.hpp"
 
