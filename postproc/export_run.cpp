@@ -48,9 +48,8 @@ std::string lost_of_joints(const ContactTable& contacts, const Joints& joints) {
   const bool may_be_crushed = have_compressive_strength(joints);
   if (damage == 0.0 && !may_be_crushed) return "";
   return fmt::format(
-      "joints are exported as new, without their damage (up to {:.2g}){}: what they bear in other analyses "
-      "of "
-      "the export can be too much",
+      "joints are exported as new, without their damage (up to {:.2g}){}: other analyses of the export may "
+      "let them bear too much",
       damage, may_be_crushed ? " and crushing" : "");
 }
 
