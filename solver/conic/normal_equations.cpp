@@ -71,6 +71,7 @@ VecX NormalEquations::multiply(const VecX& w) const {
 }
 
 VecX NormalEquations::solve(const VecX& f) const {
+  if (columns_.cols() > 0) return factor_.solve(f);
   constexpr int kMaxIterations = 8;
   constexpr double kEnough = 1e-8;  // of the norm of f; refinement by the rows themselves does the rest
   VecX x = factor_.solve(f);
