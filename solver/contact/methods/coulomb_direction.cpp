@@ -52,20 +52,31 @@ bool CoulombDirection::solve_symmetric(const std::vector<Mat3>& G, const VecX& F
   return d->allFinite();
 }
 
-bool CoulombDirection::solve(const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing,
-                             VecX* d, SolveSummary* summary) {
-  const UnsymmetricBlockMatrix& J = jacobian_.at(G);
-  if (forcing && solve_by_gmres(J, F, *forcing, d, summary)) return true;
-  const bool symmetric = last_ == Factor::symmetric || (last_ == Factor::none && first_ == First::symmetric);
-  if (forcing && symmetric && factorize_symmetric(uncoupled(G), summary) &&
-      solve_by_gmres(J, F, *forcing, d, summary))
-    return true;
+bool CoulombDirection::solve_directly(const UnsymmetricBlockMatrix& J, const VecX& F, VecX* d,
+                                      SolveSummary* summary) {
   ++summary->factorizations;
   const bool succeeds = unsymmetric_.factorize(graph_.pattern, J);
   last_ = succeeds ? Factor::unsymmetric : Factor::none;
   if (!succeeds) return false;
   *d = unsymmetric_.solve(F);
   return d->allFinite();
+}
+
+bool CoulombDirection::solve(const std::vector<Mat3>& G, const VecX& F, const Accuracy& accuracy, VecX* d,
+                             SolveSummary* summary) {
+  const UnsymmetricBlockMatrix& J = jacobian_.at(G);
+  if (accuracy.damping > 0.0) {
+    UnsymmetricBlockMatrix damped = J;
+    for (Mat6& block : damped.diagonal) block.diagonal().array() += accuracy.damping;
+    return solve_directly(damped, F, d, summary);
+  }
+  const std::optional<double>& forcing = accuracy.forcing;
+  if (forcing && solve_by_gmres(J, F, *forcing, d, summary)) return true;
+  const bool symmetric = last_ == Factor::symmetric || (last_ == Factor::none && first_ == First::symmetric);
+  if (forcing && symmetric && factorize_symmetric(uncoupled(G), summary) &&
+      solve_by_gmres(J, F, *forcing, d, summary))
+    return true;
+  return solve_directly(J, F, d, summary);
 }
 
 }  // namespace cupola

@@ -26,11 +26,16 @@ class CoulombDirection {
         first_(first),
         last_(lu->has_factor() ? Factor::unsymmetric : Factor::none) {}
 
+  struct Accuracy {
+    std::optional<double> forcing;
+    double damping = 0.0;  ///< added to the diagonal of J; without forcing only
+  };
+
   /// d with |J d - F| <= forcing |F| by GMRES, preconditioned with the last factor. Where it fails, a new
   /// factor replaces the last: a Cholesky factor after a Cholesky factor or as the first one, if GMRES
   /// succeeds with it, otherwise an LU factor, which needs no GMRES. Without forcing always the latter. False
   /// if J is singular.
-  [[nodiscard]] bool solve(const std::vector<Mat3>& G, const VecX& F, std::optional<double> forcing, VecX* d,
+  [[nodiscard]] bool solve(const std::vector<Mat3>& G, const VecX& F, const Accuracy& accuracy, VecX* d,
                            SolveSummary* summary);
 
   /// The same for symmetric G, by a new Cholesky factor: half the time of an LU factor, and a third of the
@@ -43,6 +48,7 @@ class CoulombDirection {
   bool solve_by_gmres(const UnsymmetricBlockMatrix& J, const VecX& F, double forcing, VecX* d,
                       SolveSummary* summary);
   bool factorize_symmetric(const std::vector<Mat3>& G, SolveSummary* summary);
+  bool solve_directly(const UnsymmetricBlockMatrix& J, const VecX& F, VecX* d, SolveSummary* summary);
 
   const WhitenedProblem& problem_;
   const ContactGraph& graph_;

@@ -26,7 +26,7 @@ std::optional<VecX> sticking_solution(const CoulombSubproblem& sub, bool rigid, 
   VecX w;
   SolveSummary uncounted;
   const bool exists = rigid ? direction->solve_symmetric(system.G, system.rhs, &w, summary)
-                            : direction->solve(system.G, system.rhs, std::nullopt, &w, &uncounted);
+                            : direction->solve(system.G, system.rhs, {}, &w, &uncounted);
   return exists ? std::optional(std::move(w)) : std::nullopt;
 }
 

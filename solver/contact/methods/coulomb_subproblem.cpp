@@ -10,6 +10,33 @@
 namespace cupola {
 namespace {
 
+/// What is added to the diagonal of J where full directions do not reduce |F|: a block whose contacts all slide
+/// has no stiffness along a direction in which the smallest motion makes some of them stick.
+class Damping {
+ public:
+  double value() const { return value_; }
+  void include_success(double t, double step) {
+    constexpr double kEasing = 0.1, kNegligible = 1.0;  // the diagonal of J without contacts is 1
+    step_ = step;
+    if (t == 1.0) value_ *= kEasing;
+    if (value_ < kNegligible) value_ = 0.0;
+  }
+  /// False if this was tried often enough. `F`: norm; `direction`: norm of that along which F did not fall.
+  bool include_failure(double F, double direction) {
+    constexpr double kGrowth = 100.0, kShare = 0.1;
+    constexpr int kMost = 6;
+    // The stiffness against the last step that succeeded lets the next be as long as that.
+    const double stiffness = step_ > 0.0 ? kShare * F / step_ : F / direction;
+    value_ = std::max(kGrowth * value_, stiffness);
+    return ++failures_ <= kMost;
+  }
+
+ private:
+  double value_ = 0.0;
+  double step_ = 0.0;  // norm of the last step that succeeded
+  int failures_ = 0;
+};
+
 /// Calls body(i) for every contact, on all threads.
 template <class Body>
 void by_contacts(const CoulombSubproblem& sub, const Body& body) {
@@ -101,6 +128,7 @@ bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& ac
   constexpr double kShortest = 1.0 / 64.0, kDecrease = 1e-4;
   const int max_iterations = options.max_iterations.value_or(kMaxIterations);
   std::vector<double> norms;
+  Damping damping;
   const auto is_solved = [&] {
     double tolerance = accuracy.tolerance;
     if (accuracy.share > 0.0)
@@ -114,10 +142,10 @@ bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& ac
     if (k >= kPatience && norms[k] > 0.5 * norms[k - kPatience]) return false;
     ++summary->iterations;
     std::optional<double> forcing;
-    if (accuracy.inexact_directions)
+    if (accuracy.inexact_directions && damping.value() == 0.0)
       forcing = std::clamp(0.3 * accuracy.tolerance / largest_block_norm(F), 1e-2, 0.1);
     VecX d;
-    if (!direction->solve(sub.stiffnesses(point->y), F, forcing, &d, summary)) return false;
+    if (!direction->solve(sub.stiffnesses(point->y), F, {forcing, damping.value()}, &d, summary)) return false;
     CoulombPoint trial;
     double t = 2.0;
     do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
@@ -125,7 +153,11 @@ bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& ac
       trial = point_at(sub, point->w - t * d);
       ++summary->line_search_evaluations;
     } while (!(trial.F.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
-    if (!(trial.F.norm() < F.norm())) return false;
+    if (!(trial.F.norm() < F.norm())) {
+      if (!options.damp_directions || !damping.include_failure(F.norm(), d.norm())) return false;
+      continue;
+    }
+    damping.include_success(t, t * d.norm());
     *point = std::move(trial);
   }
   return is_solved();

@@ -23,6 +23,9 @@ struct SolveOptions {
   /// gradients, and renew it when they need more than 25 iterations. Faster while few contacts change state,
   /// at the same accuracy.
   bool lag_factor = false;
+  /// Newton under Coulomb's law only: repeats directions that do not reduce the residual with a damped matrix.
+  /// Worth it where a failed solve is dear; along a path a shorter step mostly is cheaper.
+  bool damp_directions = false;
 
   /// Throws std::invalid_argument with name, value and rule.
   void validate() const;

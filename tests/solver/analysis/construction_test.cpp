@@ -61,6 +61,35 @@ TEST(Construction, StagesOfADomeTakeFewIterations) {
   EXPECT_LE(iterations, 7 * (stages - 1) / 2);  // 3.2 of a stage, and 4.6 without
 }
 
+// Blocks of a dry wall whose fresh beds slide on both stones below: all their contacts may slide at once, one
+// way on the one and the other way on the other.
+TEST(Construction, StagesOfADryWallTakeFewIterations) {
+  constexpr int courses = 4, half_blocks = 24;  // m / 2
+  std::vector<testing::BoxSpec> boxes{{.center = {6, 0, -0.5}, .size = {14, 2, 1}, .fixed = true}};
+  for (int ring = 0; ring < courses; ++ring)
+    for (int start = -(ring % 2); start < half_blocks; start += 2) {
+      const double low = 0.5 * std::max(start, 0), high = 0.5 * std::min(start + 2, half_blocks);
+      boxes.push_back({.center = {0.5 * (low + high), 0, 0.5 * ring + 0.25},
+                       .size = {high - low, 0.5, 0.5},
+                       .density = 1800,
+                       .ring = ring});
+    }
+  Assembly wall = testing::make_boxes(boxes);
+  wall.num_rings = courses;
+  Case scene = testing::level_case(1e-10, true);
+  scene.analysis.tolerance = 1e-5;
+  scene.analysis.staged.fresh.friction = 0.1;
+  int iterations = 0;
+  AnalysisSinks sinks;
+  sinks.log = [&](const std::string& line) {
+    if (const size_t at = line.find("iterations"); at != std::string::npos)
+      iterations += std::stoi(line.substr(at + 10));
+  };
+  const Built built = build(scene, wall, sinks);
+  ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  EXPECT_LE(iterations, 5 * (std::ssize(boxes) - 1));
+}
+
 // Stages balance as accurately as the case asks, by courses and by blocks.
 TEST(Construction, StagesObeyTheTolerance) {
   const Assembly courses = make_course({.bricks = 3, .courses = 2});
