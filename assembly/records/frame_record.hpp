@@ -22,7 +22,8 @@ void fields(Visitor&& visit, Is<ContactTable> auto& c) {
   visit("friction_use", "",
         "tangential force over cohesion times area + mu times normal force; 0 without force", c.friction_use);
   visit("area_m2", "m2", "tributary area of the point", c.area);
-  visit("slip_m", "m", "accumulated sliding", c.slip);
+  visit("slip_m", "m", "accumulated sliding; `nan`: the faces have parted by more than `contact.margin`",
+        c.slip);
   visit("law_violation", "",
         "distance of the force from the one that the contact law gives, over the force of the joint, or over "
         "1 % of the mean joint force if that is larger; `nan` where both blocks sleep",

@@ -133,12 +133,13 @@ void add_status_warnings(Evaluation* e) {
     warn("the structure moves: there is no admissible state of which ranges could be found");
 }
 
-int joints_lost_between(const ContactTable& first, const ContactTable& last) {
-  std::set<std::pair<int, int>> present;
-  for (int i = 0; i < last.size(); ++i) present.emplace(last.block_a[i], last.block_b[i]);
-  std::set<std::pair<int, int>> lost;
+/// Pairs of blocks that pressed on each other in `first` and do not touch any more.
+int joints_lost_since(const ContactTable& first, const JointWrenches& last) {
+  std::set<std::pair<int, int>> touching, lost;
+  for (const JointWrench& joint : last.wrenches)
+    if (joint.touches) touching.emplace(joint.block_a, joint.block_b);
   for (int i = 0; i < first.size(); ++i)
-    if (first.normal_force[i] > 0.0 && !present.contains({first.block_a[i], first.block_b[i]}))
+    if (first.normal_force[i] > 0.0 && !touching.contains({first.block_a[i], first.block_b[i]}))
       lost.emplace(first.block_a[i], first.block_b[i]);
   return static_cast<int>(lost.size());
 }
@@ -147,7 +148,7 @@ void count_lost_joints(const ResultsReader& results, Evaluation* e) {
   e->lost_joints = 0;
   if (e->times.size() < 2 || e->last.frame.role != FrameRole::step) return;
   try {
-    e->lost_joints = joints_lost_between(results.read_frame(0).contacts, e->last.frame.contacts);
+    e->lost_joints = joints_lost_since(results.read_frame(0).contacts, e->last.joints);
   } catch (const InputError& error) {
     e->lost_joints.reset();
     leave_out(frame_name(0), error.what(), e);

@@ -91,7 +91,8 @@ void fill(const ContactTable& contacts, const std::vector<int>& rows, JointWrenc
     // A joint that pulls elongates elastically before it cracks, and crushed faces part before they lose force.
     const double opening = (contacts.crack_opening.empty() ? contacts.gap : contacts.crack_opening)[*row];
     joint->opening = std::max(joint->opening, opening);
-    joint->slip = std::max(joint->slip, contacts.slip[*row]);
+    joint->touches = joint->touches || !std::isnan(contacts.slip[*row]);
+    joint->slip = std::max(joint->slip, contacts.slip[*row]);  // not NaN
   }
   joint->centroid = joint->area > 0.0 ? Vec3(joint->centroid / joint->area) : joint->patch.centroid;
   joint->friction_use = friction_use(contacts, begin, end);

@@ -33,12 +33,13 @@ struct JointWrench : Joint {
   double normal_force = 0.0;               ///< N, sum over the points; 0 where they cancel
   double eccentricity = 0.0;               ///< m, distance of the centre of pressure from the patch centroid
   double edge_distance = 0.0;              ///< m, distance of the centre of pressure from the outline
-  double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern
+  double kern = 0.0;                       ///< kern utilisation, at most 1 inside the kern; NaN on a line
   /// |tangential force| / (cohesion x area + mu x normal force), of the resultant: it does not depend on how
   /// its points share the force, and does not count turning about the normal. 1: the joint slides.
   double friction_use = 0.0;
   double opening = 0.0;           ///< m, widest at its points, >= 0: gap, or crack with strength
   double open_share = 0.0;        ///< share of the area whose points carry no normal force
+  bool touches = false;           ///< the faces have not parted everywhere by more than contact.margin
   double slip = 0.0;              ///< m, largest accumulated slip of its points
   double largest_pressure = 0.0;  ///< Pa, largest normal force of a point over its area
   double strength_use =

@@ -52,11 +52,16 @@ void integrate(PlanarHull* hull) {
     first += triangle / 3.0 * sum;
     second += triangle / 12.0 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose());
   }
+  constexpr double kLine = 1e-9;  // of the square of its length: far above rounding, far below any joint
+  double length = 0.0;
+  for (const Vec2& q : p) length = std::max(length, (q - p[0]).norm());
   Vec2 centroid = Vec2::Zero();
-  if (area > 0.0) {
+  if (area > kLine * length * length) {
     centroid = p[0] + first / area;
     second -= area * (centroid - p[0]) * (centroid - p[0]).transpose();
   } else {
+    area = 0.0;
+    second.setZero();
     for (const Vec2& q : p) centroid += q / static_cast<double>(p.size());
   }
   hull->area = area;
@@ -101,7 +106,7 @@ double distance_to_outline(const PlanarHull& hull, const Vec2& point) {
 }
 
 double kern_use(const PlanarHull& hull, const Vec2& point) {
-  if (hull.area <= 0.0) return 0.0;
+  if (hull.area <= 0.0) return std::numeric_limits<double>::quiet_NaN();
   const Vec2 slope = hull.area * hull.second_moment.inverse() * point;
   double most = 0.0;
   for (const Vec2& corner : hull.outline) most = std::max(most, -slope.dot(corner));

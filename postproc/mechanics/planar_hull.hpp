@@ -21,13 +21,13 @@ struct PlanarHull {
 };
 
 /// Convex hull of points, projected onto the plane through their mean with the given unit normal. Fewer than
-/// three points and collinear points give an outline of zero area.
+/// three points and points on a line, but for rounding, give an outline of zero area.
 PlanarHull planar_hull(const std::vector<Vec3>& points, const Vec3& normal);
 
 /// Distance of a point from the outline, m: positive inside, negative outside; 0 for a hull of zero area.
 double distance_to_outline(const PlanarHull& hull, const Eigen::Vector2d& point);
 
-/// Kern utilisation k of a normal force that acts at `point`; 0 for a hull of zero area.
+/// Kern utilisation k of a normal force that acts at `point`; NaN for a hull of zero area, which is a hinge.
 ///
 /// With a linear distribution of pressure (Navier), the least pressure on the outline is 1 - k times the
 /// mean. For k <= 1 the force lies in the kern and the whole joint is compressed. A rectangle of width b has

@@ -133,7 +133,8 @@ std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& 
   DisjointSets connected(assembly.blocks.size());
   const auto fixed = [&assembly](int b) { return assembly.blocks[b].fixed; };
   for (const JointWrench& joint : joints.wrenches)
-    if (!fixed(joint.block_a) && !fixed(joint.block_b)) connected.join(joint.block_a, joint.block_b);
+    if (joint.touches && !fixed(joint.block_a) && !fixed(joint.block_b))
+      connected.join(joint.block_a, joint.block_b);
   std::map<int, int> sizes;
   for (int b = 0; b < num_blocks; ++b)
     if (!fixed(b)) ++sizes[connected.root(b)];

@@ -44,9 +44,12 @@ std::string at_rest_html(const Evaluation& e) {
                        j.friction_use > kSlides ? "is at its friction limit" : "is the nearest to sliding",
                        100.0 * j.friction_use, html_text(normal_force_text(j.normal_force)));
   }
-  if (worst.edge && e.last.joints.wrenches[*worst.edge].kern > 0.0) {
+  const auto opens = [](const JointWrench& j) {
+    return j.kern > 0.0 || (j.patch.area == 0.0 && j.normal_force > 0.0);
+  };
+  if (worst.edge && opens(e.last.joints.wrenches[*worst.edge])) {
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
-    const bool on_edge = j.edge_distance < 1e-3 * std::sqrt(j.patch.area);
+    const bool on_edge = j.edge_distance <= 1e-3 * std::sqrt(j.patch.area);
     out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
                        joint_link(e, *worst.edge), html_text(force_text(j.wrench.force.norm())),
                        on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
@@ -100,12 +103,13 @@ WorstJoints worst_joints(const JointWrenches& joints) {
   for (const JointWrench& joint : joints.wrenches) largest = std::max(largest, joint.wrench.force.norm());
   WorstJoints worst;
   const auto use = [&](size_t j) { return std::min(joints.wrenches[j].friction_use, kSlides); };
-  const auto edge = [&](size_t j) {
-    return joints.wrenches[j].edge_distance / std::sqrt(joints.wrenches[j].patch.area);
+  const auto edge = [&](size_t j) {  // a line is all edge
+    const double area = joints.wrenches[j].patch.area;
+    return area > 0.0 ? joints.wrenches[j].edge_distance / std::sqrt(area) : 0.0;
   };
   for (size_t j = 0; j < joints.wrenches.size(); ++j) {
     const JointWrench& joint = joints.wrenches[j];
-    if (joint.negligible || joint.patch.area <= 0.0) continue;
+    if (joint.negligible) continue;
     if (const auto& w = worst.sliding;
         std::isfinite(joint.friction_use) &&
         (!w || std::pair(use(j), joint.normal_force) > std::pair(use(*w), joints.wrenches[*w].normal_force)))
@@ -132,7 +136,7 @@ std::optional<MovingJoints> moving_joints(const Evaluation& e) {
     const double opening = mechanism ? speeds[j].opening : joints[j].opening,
                  sliding = mechanism ? speeds[j].sliding : joints[j].slip;
     if (sliding > out.sliding.motion) out.sliding = {j, sliding};
-    if (opening > out.opening.motion) out.opening = {j, opening};
+    if ((mechanism || joints[j].touches) && opening > out.opening.motion) out.opening = {j, opening};
   }
   return out;
 }

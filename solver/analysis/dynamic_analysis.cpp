@@ -10,6 +10,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/motion/dynamic_history.hpp"
 #include "solver/analysis/motion/motion_verdict.hpp"
+#include "solver/analysis/record/joints_as_built.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/static_record.hpp"
@@ -50,6 +51,7 @@ class DynamicRun {
   const Analysis& analysis_;
   const AnalysisSinks& sinks_;
   Simulation simulation_;
+  const JointsAsBuilt built_;
   const std::vector<KeyedTime> times_;  // of all loads, supports and frictions
   double last_change_ = 0.0;            // s
   RunProgress progress_;
@@ -63,6 +65,7 @@ DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const Analys
       analysis_(scene.analysis),
       sinks_(sinks),
       simulation_(make_simulation(scene, assembly)),
+      built_(simulation_.model(), simulation_.options().detection),
       times_(times_of(scene)) {
   for (const KeyedTime& time : times_) last_change_ = std::max(last_change_, last_change(time.function));
 }
@@ -191,6 +194,7 @@ Frame DynamicRun::last_frame() const {
   set_role(FrameRole::step, "", &frame);
   state.poses = simulation_.contact_poses();
   set_contact_poses(model, state, &frame);
+  built_.list_parted(state, simulation_.contacts(), &frame);
   return frame;
 }
 

@@ -11,6 +11,7 @@
 #include "assembly/model/thickness.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
+#include "solver/analysis/record/joints_as_built.hpp"
 #include "solver/analysis/record/mechanism.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
@@ -185,8 +186,16 @@ Bracket LimitRun::follow_spread() {
 std::string write_frames(const LimitRun& run, Summary* summary) {
   const std::optional<Probe>& shown = run.stable ? run.stable : run.moving ? run.moving : run.undecided_probe;
   if (shown) {
-    Frame frame = static_frame(shown->model, shown->start, shown->contacts, shown->memories, shown->solution,
-                               run.options);
+    StaticOptions options = run.options;
+    options.time_advance = shown->solution.time_advance;  // supports move in the last step of `spread`
+    Frame frame =
+        static_frame(shown->model, shown->start, shown->contacts, shown->memories, shown->solution, options);
+    if (run.stable) {
+      const LoadedState end = loaded_state(shown->model, shown->start, shown->contacts, shown->memories,
+                                           shown->solution, options);
+      JointsAsBuilt(shown->model, detection_options(run.scene))
+          .list_parted(end.state, shown->contacts, &frame);
+    }
     summarize_static(shown->solution, frame, shown->model, run.options.tolerance, summary);
     summary->weight_N = free_weight(*shown->model.assembly, run.scene.loads.gravity.norm());
     summary->max_displacement_m.reset();  // it depends on how close the bracket is to the critical value

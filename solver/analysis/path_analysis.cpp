@@ -13,6 +13,7 @@
 #include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/path_control.hpp"
+#include "solver/analysis/record/joints_as_built.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/record/record_archive.hpp"
 #include "solver/analysis/statics/analysis_options.hpp"
@@ -129,6 +130,7 @@ class PathRun {
   const LoadPath& options_;
   const AnalysisSinks& sinks_;
   const Model model_;
+  const JointsAsBuilt built_;
   EquilibriumPath path_;
   LengthControl control_;  // without displacement and time step
   Summary summary_;
@@ -142,6 +144,7 @@ PathRun::PathRun(const Case& scene, const Assembly& assembly, const AnalysisSink
     : options_(scene.analysis.path),
       sinks_(sinks),
       model_(make_model(scene, assembly)),
+      built_(model_, detection_options(scene)),
       path_(model_, detection_options(scene), static_options(scene.analysis), scene.analysis.path.geometry),
       control_(path_control(scene.analysis.path, model_)) {
   progress_.time_step = options_.end / options_.steps;
@@ -202,7 +205,7 @@ void PathRun::record(const StaticSolution& solution) {
       static_frame(model_, path_.start(), path_.contacts(), path_.memories(), solution, path_.options());
   set_role(FrameRole::path, "", &frame);
   set_contact_poses(model_, path_.start(), &frame);
-  path_.list_parted(&frame);
+  built_.list_parted(path_.state(), path_.contacts(), &frame);
   sinks_.frame(frame);
   summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);
   progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,

@@ -245,9 +245,9 @@ void append_parted(const Model& model, const ContactSet& built, const ContactSet
     table->gap.push_back(contact.gap);
     table->force.push_back(Vec3::Zero());
     table->area.push_back(contact.area);
-    for (std::vector<double>* zero :
-         {&table->normal_force, &table->friction_use, &table->slip, &table->law_violation})
+    for (std::vector<double>* zero : {&table->normal_force, &table->friction_use, &table->law_violation})
       zero->push_back(0.0);
+    table->slip.push_back(kNone);
     if (!has_strength) continue;
     table->friction_limit.push_back(0.0);
     const JointLaw law = joint_law(model, built, contact, frame->time);

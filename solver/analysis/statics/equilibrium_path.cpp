@@ -10,7 +10,6 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/model/joint_rule.hpp"
-#include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/conic/motion_proof.hpp"
 #include "solver/dynamics/energy_account.hpp"
@@ -30,17 +29,6 @@ EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& det
                                  const StaticOptions& options, PathGeometry geometry)
     : model_(model), options_(options), geometry_(geometry), detector_(*model.assembly, detection) {
   loaded_.state = state_at_rest(model_);
-  ContactDetector as_built(*model.assembly, detection);
-  contacts_at_rest(model_, &as_built);
-  built_ = as_built.memory().contacts;
-}
-
-void EquilibriumPath::list_parted(Frame* frame) const {
-  AnchoredContacts built = built_;
-  const std::vector<Pose>& poses = loaded_.state.poses;
-  move_contacts(poses, moved_contacts(built.set, std::vector<char>(poses.size(), 1)), &built);
-  if (!model_.heat.empty()) built.set = model_.heat.heated(std::move(built.set), poses, loaded_.state.time);
-  append_parted(model_, built.set, contacts(), detector_.margin(), frame);
 }
 
 namespace {

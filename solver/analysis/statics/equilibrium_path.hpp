@@ -50,9 +50,6 @@ class EquilibriumPath {
   double dissipated() const { return dissipated_; }  ///< J, in the joints in the last step
   const ContactSet& contacts() const { return contacts_; }
   const ContactMemories& memories() const { return memories_; }
-  /// Adds to a frame of the last equilibrium the points of the joints as built whose faces have parted by
-  /// more than the margin of detection: the problem no longer holds them, and they carry nothing.
-  void list_parted(Frame* frame) const;
 
  private:
   StaticSolution advance_from(double guess);
@@ -67,7 +64,6 @@ class EquilibriumPath {
   StaticOptions options_;
   PathGeometry geometry_;
   ContactDetector detector_;
-  AnchoredContacts built_;  ///< the contacts as built
   LoadedState loaded_;
   State start_;
   ContactSet contacts_;

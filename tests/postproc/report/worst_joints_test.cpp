@@ -25,6 +25,23 @@ TEST(WorstJoints, GiveWayOnlyIfItFalls) {
   EXPECT_EQ(goes_on.find("gives way"), std::string::npos) << goes_on;
   EXPECT_NE(fallen.find("<strong>Where it gives way</strong>"), std::string::npos) << fallen;
   EXPECT_NE(goes_on.find("is open the widest"), std::string::npos) << goes_on;
+  e.last.joints.wrenches[0].touches = false;
+  EXPECT_EQ(html(Status::moving).find("is open the widest"), std::string::npos) << "of those that touch";
+}
+
+// The blocks of a column touch each other along the edge x = 1.2 m of one bed only.
+TEST(WorstJoints, ALineThatCarriesIsAHinge) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  const JointWrench bed = e.last.joints.wrenches.back();
+  for (int i = bed.contact_start; i < bed.contact_start + bed.num_contacts; ++i)
+    e.last.frame.contacts.point[e.last.joints.contacts[i]].x() = 1.2;
+  e.last.joints = joint_wrenches(e.assembly, e.last.frame.contacts, e.shell);
+  EXPECT_TRUE(std::isnan(e.last.joints.wrenches.back().kern));
+  EXPECT_EQ(e.last.joints.wrenches.back().edge_distance, 0.0);
+  const std::string html = worst_joints_html(e);
+  EXPECT_NE(html.find("2 and 3</a> is the nearest to opening as a hinge: its force of"), std::string::npos)
+      << html;
+  EXPECT_NE(html.find("acts on the edge.<"), std::string::npos) << html;
 }
 
 // The lower corners of the beds push to and fro, so that the upper block only turns: their resultant is

@@ -45,6 +45,54 @@ TEST(MovedSupports, KeepsTheJointThatASupportHasLeft) {
   EXPECT_NEAR(largest, 0.02, 1e-6);
 }
 
+// The same beam in a motion, and in a limit of `spread` that also draws the right support from under it. Their
+// contacts are found anew, without those of the middle joint: frames list them all the same. The joints yield
+// by less than W c = 1e-6 m.
+TEST(MovedSupports, FramesKeepJointsThatHaveOpenedWidely) {
+  const Assembly beam =
+      testing::make_boxes({{.center = {-1, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
+                           {.center = {0, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
+                           {.center = {1, 0, -0.2}, .size = {0.4, 0.4, 0.4}, .fixed = true},
+                           {.center = {0, 0, 0.2}, .size = {2.4, 0.4, 0.4}}});
+  Frame frame;
+  const auto middle_gaps = [&frame] {
+    std::vector<double> gaps;
+    for (int i = 0; i < frame.contacts.size(); ++i) {
+      if (frame.contacts.block_a[i] != 1) continue;
+      gaps.push_back(frame.contacts.gap[i]);
+      EXPECT_EQ(frame.contacts.normal_force[i], 0.0);
+      EXPECT_TRUE(std::isnan(frame.contacts.slip[i])) << "marks those that have parted";
+    }
+    return gaps;
+  };
+  AnalysisSinks sinks;
+  Case scene = make_case(0.5, 1e-10, 0.01);
+  scene.analysis.friction_law = FrictionLaw::coulomb;
+  scene.supports.moves = {
+      {.region = {.blocks = {BlockRef{1}}}, .displacement = {0, 0, -0.02}, .time = RampInTime{}}};
+  scene.analysis.duration = 1.2;
+  sinks.frame = [&frame](const Frame& written) { frame = written; };
+  ASSERT_TRUE(run_dynamic(scene, beam, sinks));
+  const std::vector<double> moved = middle_gaps();
+  ASSERT_EQ(moved.size(), 4u);
+  for (const double gap : moved) EXPECT_NEAR(gap, 0.02, 1e-6);
+
+  scene.analysis.type = AnalysisType::limit;
+  scene.analysis.limit.parameter = LimitSearch::Parameter::spread;
+  scene.analysis.limit.low = 0.0;
+  scene.analysis.limit.high = 1.0;
+  scene.supports.moves = {{.region = {.blocks = {BlockRef{1}}}, .displacement = {0, 0, -1}, .time = {}},
+                          {.region = {.blocks = {BlockRef{2}}}, .displacement = {1, 0, 0}, .time = {}}};
+  sinks.frame = [&frame](const Frame& written) {
+    if (written.role == FrameRole::equilibrium) frame = written;
+  };
+  const std::optional<Summary> limit = run_limit(scene, beam, sinks);
+  ASSERT_TRUE(limit && limit->critical) << limit->message;
+  const std::vector<double> spread = middle_gaps();
+  ASSERT_EQ(spread.size(), 4u);
+  for (const double gap : spread) EXPECT_NEAR(gap, limit->critical->stable, 1e-6);
+}
+
 // A beam on two supports, of which one moves outwards by d, along its joint. Two joints of four points each
 // are springs in series, T = d / (2 c / 4), until the joint slides at mu W / 2. The balance of statics is far
 // below 1e-6 W.
