@@ -5,6 +5,11 @@
 #include "assembly/base/error.hpp"
 
 namespace cupola {
+namespace {
+
+constexpr double kYields = 1.0 - 1e-6;  // of the yield force: the solvers' rounding
+
+}  // namespace
 
 Vec3 tie_force_on_b(const TieTable& ties, int i) {
   const Vec3 towards_a = (ties.point_a[i] - ties.point_b[i]).normalized();
@@ -33,7 +38,7 @@ std::vector<ChainForces> chain_forces(const std::vector<BuiltChain>& chains, con
     row.greatest = std::max(row.greatest, force);
     row.yield_force = std::min(row.yield_force, ties.yield_force[i]);
     row.slack += force == 0.0 ? 1 : 0;
-    row.yielding += ties.yielded[i] > 0.0 ? 1 : 0;
+    row.yielding += force >= kYields * ties.yield_force[i] ? 1 : 0;
     row.yielded += ties.yielded[i];
   }
   for (size_t c = 0; c < all.size(); ++c)

@@ -20,7 +20,7 @@ struct ChainForces {
   double greatest = 0.0;     ///< N
   double yield_force = 0.0;  ///< N; infinity: elastic without limit
   int slack = 0;             ///< bars without tension
-  int yielding = 0;          ///< bars that have elongated plastically
+  int yielding = 0;          ///< bars at their yield force
   double yielded = 0.0;      ///< m, plastic elongation of all bars together
 };
 

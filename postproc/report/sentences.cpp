@@ -80,14 +80,16 @@ std::string strength_text(const PostSummary& s) {
 }
 
 std::string chain_text(const ChainForces& chain) {
-  if (chain.greatest == 0.0)
-    return fmt::format("The chain {} at {:.4g} m is slack all round.", chain.name, chain.height);
-  std::string text =
-      fmt::format("The chain {} at {:.4g} m carries a tension of {} on average, from {} to {}", chain.name,
-                  chain.height, force_text(chain.mean), force_text(chain.least), force_text(chain.greatest));
+  std::string text = fmt::format("The chain {} at {:.4g} m ", chain.name, chain.height);
+  text += chain.greatest == 0.0
+              ? "is slack all round"
+              : fmt::format("carries a tension of {} on average, from {} to {}", force_text(chain.mean),
+                            force_text(chain.least), force_text(chain.greatest));
   if (chain.yielding > 0)
-    text += fmt::format("; {} of {} yield, by {} in total", chain.yielding, counted(chain.bars, "bar"),
-                        length_text(chain.yielded));
+    text += fmt::format("; {} of {} {}", chain.yielding, counted(chain.bars, "bar"),
+                        chain.yielding == 1 ? "yields" : "yield");
+  if (chain.yielded > 0.0)
+    text += fmt::format("; plastic elongation {} in total", length_text(chain.yielded));
   return text + ".";
 }
 

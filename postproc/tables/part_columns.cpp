@@ -89,7 +89,7 @@ const Columns<ChainForces>& chain_columns() {
       {"greatest_force_N", "N", "tension of the most loaded bar", &C::greatest},
       {"yield_force_N", "N", "tension at which a bar yields; inf: elastic without limit", &C::yield_force},
       {"slack_bars", "", "bars without tension", &C::slack},
-      {"yielding_bars", "", "bars that have elongated plastically", &C::yielding},
+      {"yielding_bars", "", "bars at their yield force", &C::yielding},
       {"yielded_m", "m", "plastic elongation of all bars together", &C::yielded},
   };
   return columns;

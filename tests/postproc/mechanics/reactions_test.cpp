@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/mechanics/chain_forces.hpp"
+#include "postproc/report/report.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::reactions_test {
@@ -95,6 +97,31 @@ TEST(Reactions, CountTheTiesOfTheSupports) {
   EXPECT_EQ(reactions[1].block, 4);
   EXPECT_EQ(reactions[1].force, Vec3(-2e3, 0, 0));
   EXPECT_EQ(reactions[1].length, 0.0);
+}
+
+// One bar is at its yield force, as far as the solver rounds; two have elongated before.
+TEST(Chains, YieldWhereTheyPullWithTheirYieldForce) {
+  TieTable ties;
+  ties.chain = {0, 0, 0};
+  ties.point_a.assign(3, Vec3::Zero());
+  ties.point_b.assign(3, Vec3::UnitX());
+  ties.force = {30e3 * (1.0 - 1e-8), 16e3, 0.0};
+  ties.yield_force.assign(3, 30e3);
+  ties.yielded = {0.0, 0.01, 0.02};
+  ties.strut = {0, 0, 0};
+  std::vector<BuiltChain> chains(1);
+  chains[0].name = "rod";
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  const auto says = [&](const char* text) {
+    e.chains = chain_forces(chains, ties);
+    return std::ranges::any_of(finding_sentences(e),
+                               [&](const std::string& s) { return s.find(text) != std::string::npos; });
+  };
+  EXPECT_TRUE(says("; 1 of 3 bars yields; plastic elongation 30 mm in total."));
+  ASSERT_EQ(e.chains[0].yielding, 1);
+  ties.force.assign(3, 0.0);
+  EXPECT_TRUE(says("is slack all round; plastic elongation 30 mm in total."));
+  EXPECT_EQ(e.chains[0].yielding, 0);
 }
 
 }  // namespace
