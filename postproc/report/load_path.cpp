@@ -19,7 +19,8 @@ Table path_table(const CsvFile& csv) {
       {"displacement_m", "m", "of the control block along its direction, from relative_to if given"},
       {"force_N", "N",
        "along that direction: of a support on the blocks; of all loads, if the control block is free"},
-      {"dissipated_J", "J", "in the joints since the start: friction, tension, cohesion and crushing"},
+      {"dissipated_J", "J",
+       "in joints and ties since the start: friction, tension, cohesion, crushing and yielding"},
       {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"}};
   const size_t time = csv.column("time_s"), displacement = csv.column("displacement_m");
   const size_t force = csv.column("force_N"), work = csv.column("dissipated_J"),
@@ -55,7 +56,7 @@ Figure path_figure(const Table& path) {
   f.title = "Force against displacement";
   f.caption =
       "Every point is an equilibrium. Force and displacement are those of the control block of the case "
-      "along its direction; the work is that dissipated in the joints.";
+      "along its direction; the work is that dissipated in joints and ties.";
   f.width = 900;
   f.height = 620;
   f.commands = plot_style() + data_block("path", rows) +

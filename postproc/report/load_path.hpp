@@ -9,7 +9,7 @@ namespace cupola {
 /// The equilibria of a path (results/path.csv).
 Table path_table(const CsvFile& csv);
 
-/// Force against displacement of the control block, and the work dissipated in the joints.
+/// Force against displacement of the control block, and the work dissipated in joints and ties.
 Figure path_figure(const Table& path);
 
 }  // namespace cupola

@@ -47,7 +47,7 @@ class EquilibriumPath {
   const State& state() const { return loaded_.state; }
   const StaticOptions& options() const { return options_; }
   int solves() const { return solves_; }             ///< static solves of the last step tried
-  double dissipated() const { return dissipated_; }  ///< J, in the joints in the last step
+  double dissipated() const { return dissipated_; }  ///< J, in joints and ties in the last step
   const ContactSet& contacts() const { return contacts_; }
   const ContactMemories& memories() const { return memories_; }
 
