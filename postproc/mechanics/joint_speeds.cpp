@@ -42,7 +42,8 @@ MechanismMotion mechanism_motion(const Assembly& assembly, const Frame& frame, c
                                    : motion.joints.hinging);
     const auto [below, course] =
         std::minmax(assembly.blocks[j.block_a].ring, assembly.blocks[j.block_b].ring);
-    CourseMotion& at = motion.by_course[course];
+    const bool over = j.upper >= 0 && (j.carried < 0 || assembly.blocks[j.carried].fixed);
+    CourseMotion& at = motion.by_course[{course, over}];
     const double opens = speeds[i].turning(), slides = speeds[i].sliding;
     (parts ? at.parting : at.hinging) += opens;
     at.sliding += slides;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "assembly/model/assembly.hpp"
@@ -30,7 +31,8 @@ struct CourseMotion {
 struct MechanismMotion {
   GivesWay joints;
   double hinging = 0.0, sliding = 0.0, parting = 0.0;  ///< sums over the joints
-  std::map<int, CourseMotion> by_course;               ///< by the course of the upper block
+  /// By the course of the upper block; true: at the bed over it, where the last course of an arch springs.
+  std::map<std::pair<int, bool>, CourseMotion> by_course;
 
   double sum() const { return hinging + sliding + parting; }
 };

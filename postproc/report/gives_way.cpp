@@ -36,16 +36,17 @@ std::string course_text(const Evaluation& e, int course, const CourseMotion& mot
 std::string moving_courses(const Evaluation& e, const MechanismMotion& motion) {
   constexpr double kEnough = 0.9;
   constexpr size_t kMost = 5;
-  std::vector<std::pair<double, int>> courses;
-  for (const auto& [course, at] : motion.by_course)
-    if (course >= 0 && course < static_cast<int>(e.rings.size())) courses.emplace_back(at.sum(), course);
-  std::ranges::stable_sort(courses, std::ranges::greater(), &std::pair<double, int>::first);
+  std::vector<std::pair<int, const CourseMotion*>> courses;
+  for (const auto& [bed, at] : motion.by_course)
+    if (bed.first >= 0 && bed.first < static_cast<int>(e.rings.size())) courses.emplace_back(bed.first, &at);
+  std::ranges::stable_sort(courses, std::ranges::greater(),
+                           [](const auto& entry) { return entry.second->sum(); });
   std::vector<std::string> names;
   double sum = 0.0;
-  for (const auto& [speed, course] : courses) {
+  for (const auto& [course, at] : courses) {
     if (names.size() == kMost || sum >= kEnough * motion.sum()) break;
-    sum += speed;
-    names.push_back(course_text(e, course, motion.by_course.at(course)));
+    sum += at->sum();
+    names.push_back(course_text(e, course, *at));
   }
   return names.empty() ? ""
                        : fmt::format("; {:.0f} % of the motion is at {}", 100.0 * sum / motion.sum(),
@@ -84,7 +85,8 @@ std::optional<double> leaves_level_beds_at(const Assembly& assembly, int course)
 /// friction: what builders do about it.
 std::string missing_skewback(const Evaluation& e, const MechanismMotion& motion) {
   constexpr double kMuch = 0.1;  // of the motion
-  for (const auto& [course, at] : motion.by_course) {
+  for (const auto& [bed, at] : motion.by_course) {
+    const int course = bed.first;
     const Sheet *sheet = e.assembly.sheet_of(course), *below = e.assembly.sheet_of(at.on);
     if (!sheet || !below || below == sheet) continue;
     if (course != sheet->first_ring && course != sheet->first_ring + sheet->num_rings - 1) continue;

@@ -179,7 +179,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
 
   Summary summary;
   summary.solve_time_seconds = wall_seconds() - started;
-  const Frame frame = static_frame(model, rest, contacts, memories, solution, options);
+  Frame frame = static_frame(model, rest, contacts, memories, solution, options);
   summarize_static(solution, frame, model, options.tolerance, &summary);
   if (wrench_error) {
     const double reached =
@@ -204,8 +204,10 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
       summary.warnings.push_back(warning);
   }
   if (solution.outcome != StaticOutcome::equilibrium && !symmetry && !wrench_error)
-    if (const auto parts = solve_by_parts(model, rest, contacts, memories, options))
+    if (const auto parts = solve_by_parts(model, rest, contacts, memories, options)) {
       add_parts(*parts, options, &summary, sinks);
+      stop_what_stands(*parts, model, &frame);
+    }
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;

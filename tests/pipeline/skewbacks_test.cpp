@@ -19,8 +19,8 @@ TEST(Skewbacks, AreNamedWhereAnArchSlidesOnSteepLevelBeds) {
   MechanismMotion motion;
   motion.joints.sliding = 4;
   motion.sliding = 1.0;
-  motion.by_course[springing].sliding = 1.0;
-  motion.by_course[springing].on = e.assembly.sheets.front().num_rings - 1;
+  motion.by_course[{springing, false}].sliding = 1.0;
+  motion.by_course[{springing, false}].on = e.assembly.sheets.front().num_rings - 1;
   e.gives_way = motion;
   EXPECT_NE(how_it_gives_way(e).find("; barrel slides on level beds, which its profile leaves at 40 degrees"),
             std::string::npos)
@@ -28,7 +28,7 @@ TEST(Skewbacks, AreNamedWhereAnArchSlidesOnSteepLevelBeds) {
   e.scene.joints.friction = 1.0;
   EXPECT_EQ(how_it_gives_way(e).find("level beds"), std::string::npos) << "friction holds it";
   e.scene.joints.friction = 0.6;
-  e.gives_way->by_course[springing].on = springing;
+  e.gives_way->by_course[{springing, false}].on = springing;
   EXPECT_EQ(how_it_gives_way(e).find("level beds"), std::string::npos) << "a head joint";
 }
 

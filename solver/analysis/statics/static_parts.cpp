@@ -69,17 +69,17 @@ std::optional<StaticParts> solve_by_parts(const Model& model, const State& start
   std::vector<OnePart> parts = parts_of(model, islands_of(model, contacts));
   if (parts.size() < 2 || parts.size() > kMostParts) return std::nullopt;
   StaticParts out;
-  std::vector<char> standing(static_cast<size_t>(model.num_free()));
+  out.stands.resize(static_cast<size_t>(model.num_free()));
   for (OnePart& part : parts) {
     const ScenePart scene = scene_of(model, start, contacts, memories, part.chosen);
     const StaticSolution solution = solve_part(scene, options);
     part.verdict.status = status_of(scene, solution, options);
     part.stands = solution.outcome == StaticOutcome::equilibrium;
-    for (size_t i = 0; i < standing.size() && part.stands; ++i) standing[i] |= part.chosen[i];
+    for (size_t i = 0; i < out.stands.size() && part.stands; ++i) out.stands[i] |= part.chosen[i];
     out.verdicts.push_back(part.verdict);
   }
   if (!parts.front().stands) return out;
-  out.standing = scene_of(model, start, contacts, memories, standing);
+  out.standing = scene_of(model, start, contacts, memories, out.stands);
   out.solution = solve_part(*out.standing, options);
   if (out.solution.outcome != StaticOutcome::equilibrium) out.standing.reset();
   return out;
@@ -102,6 +102,14 @@ void add_parts(const StaticParts& parts, const StaticOptions& options, Summary* 
   summary->status = whole;
   summary->message = fmt::format("{}; the rest: {}", stands, message);
   sinks.frame(frame);
+}
+
+void stop_what_stands(const StaticParts& parts, const Model& model, Frame* frame) {
+  for (int i = 0; i < model.num_free(); ++i) {
+    if (!parts.stands[i]) continue;
+    frame->blocks.velocity[model.free_blocks[i]].setZero();
+    frame->blocks.angular_velocity[model.free_blocks[i]].setZero();
+  }
 }
 
 }  // namespace cupola

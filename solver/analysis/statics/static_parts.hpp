@@ -13,6 +13,7 @@ namespace cupola {
 /// that of the rest.
 struct StaticParts {
   std::vector<PartVerdict> verdicts;  ///< the largest part first
+  std::vector<char> stands;           ///< 1 or 0 (num_free)
   /// All parts that stand, if the largest does, and their equilibrium.
   std::optional<ScenePart> standing;
   StaticSolution solution;
@@ -27,5 +28,8 @@ std::optional<StaticParts> solve_by_parts(const Model& model, const State& start
 /// stands, the summary describes the equilibrium of all that do, and its frame is written.
 void add_parts(const StaticParts& parts, const StaticOptions& options, Summary* summary,
                const AnalysisSinks& sinks);
+
+/// Stops what stands in the frame of a motion of the whole: the solve shows the elastic displacements there.
+void stop_what_stands(const StaticParts& parts, const Model& model, Frame* frame);
 
 }  // namespace cupola

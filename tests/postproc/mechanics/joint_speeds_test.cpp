@@ -47,5 +47,35 @@ TEST(JointSpeeds, GiveTheHeightOfTheJointsThatMove) {
   EXPECT_NEAR(motion.by_course.begin()->second.height, 0.5, 1e-12);
 }
 
+// The last course of an arch stands on a bed and springs from a support: here the column reaches up to one.
+TEST(JointSpeeds, OfTheLastCourseOfAnArchAreThoseOfItsBedAndItsSpringing) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
+  ContactTable& c = frame.contacts;
+  const int count = c.size();
+  for (int i = 0; i < count; ++i) {
+    if (c.block_a[i] != 0) continue;
+    c.joint.push_back(3);
+    c.block_a.push_back(0);
+    c.block_b.push_back(3);
+    c.kind.push_back(JointKind::base);
+    c.ring.push_back(2);
+    c.point.push_back(c.point[i] + Vec3(0, 0, 1.5));
+    c.normal.push_back(-c.normal[i]);
+    c.force.push_back(-c.force[i]);
+    for (std::vector<double>* values :
+         {&c.gap, &c.normal_force, &c.friction_use, &c.area, &c.slip, &c.law_violation})
+      values->push_back(double((*values)[i]));
+  }
+  frame.blocks.velocity[3] = Vec3::UnitX();
+  const MechanismMotion motion = mechanism_motion(a, frame, joint_wrenches(a, frame.contacts, {}));
+  ASSERT_EQ(motion.by_course.size(), 2u);
+  const CourseMotion &bed = motion.by_course.at({2, false}), &springing = motion.by_course.at({2, true});
+  EXPECT_NEAR(bed.height, 1.0, 1e-12);
+  EXPECT_EQ(bed.on, 1);
+  EXPECT_NEAR(springing.height, 1.5, 1e-12);
+  EXPECT_EQ(springing.on, -1);
+}
+
 }  // namespace
 }  // namespace cupola::joint_speeds_test

@@ -114,12 +114,12 @@ TEST(FirstScreen, ALimitSaysWhetherTheCaseStandsAndByHowMuch) {
   e.scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
   e.scene.joints.friction = 0.4;
   e.summary.critical = CriticalValue{"friction", 0.2, 0.2, 0.2 - 1e-9};
-  e.gives_way =
-      MechanismMotion{.joints = {.hinging = 4, .sliding = 1, .opening = 0},
-                      .hinging = 3.0,
-                      .sliding = 1.0,
-                      .parting = 0.0,
-                      .by_course = {{0, {.sliding = 1.0}}, {1, {.hinging = 3.0, .height = 0.5, .on = 0}}}};
+  e.gives_way = MechanismMotion{
+      .joints = {.hinging = 4, .sliding = 1, .opening = 0},
+      .hinging = 3.0,
+      .sliding = 1.0,
+      .parting = 0.0,
+      .by_course = {{{0, false}, {.sliding = 1.0}}, {{1, false}, {.hinging = 3.0, .height = 0.5, .on = 0}}}};
   EXPECT_EQ(verdict_words(e).words, "It stands");
   const std::string detail = margin_answer(e).detail;
   EXPECT_EQ(

@@ -81,8 +81,8 @@ TEST(GivesWay, HeightsAboveTheSeaAreToldApart) {
   MechanismMotion motion;
   motion.sliding = 2.0;
   motion.joints.sliding = 2;
-  motion.by_course[1] = {.sliding = 1.0, .height = 1000.5, .on = 0};
-  motion.by_course[2] = {.sliding = 1.0, .height = 1001.0, .on = 1};
+  motion.by_course[{1, false}] = {.sliding = 1.0, .height = 1000.5, .on = 0};
+  motion.by_course[{2, false}] = {.sliding = 1.0, .height = 1001.0, .on = 1};
   e.gives_way = motion;
   EXPECT_NE(how_it_gives_way(e).find("course 1 (z = 1000.5 m, slides), course 2 (z = 1001 m, slides)"),
             std::string::npos)

@@ -362,5 +362,26 @@ TEST(StaticSolve, MotionHasDirectionsButNoDisplacement) {
   for (const double gap : frame.contacts.gap) EXPECT_NEAR(gap, 0.0, 1e-9) << "as detected";
 }
 
+// A tall block falls beside a low one, which meanwhile settles on its joint: the frame of the motion does not
+// show that.
+TEST(StaticParts, WhatStandsDoesNotMove) {
+  const Assembly blocks = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {9, 2, 1}, .fixed = true},
+                                               {.center = {-2, 0, 2}, .size = {1, 1, 4}},
+                                               {.center = {2, 0, 0.5}}});
+  Case scene = make_case(0.7, 1e-6, 0.01);
+  scene.analysis.type = AnalysisType::static_;
+  scene.loads.gravity = {0.3 * kG, 0, -kG};
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&frames](const Frame& frame) { frames.push_back(frame); };
+  const Summary summary = run_static(scene, blocks, sinks);
+  ASSERT_EQ(summary.parts.size(), 2u) << summary.message;
+  const BlockTable& moving = frames.back().blocks;
+  ASSERT_EQ(frames.back().role, FrameRole::mechanism);
+  EXPECT_NEAR(moving.velocity[1].norm(), 1.0, 1e-12);
+  EXPECT_EQ(moving.velocity[2], Vec3::Zero());
+  EXPECT_EQ(moving.angular_velocity[2], Vec3::Zero());
+}
+
 }  // namespace
 }  // namespace cupola::static_test
