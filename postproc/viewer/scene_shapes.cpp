@@ -119,9 +119,19 @@ nlohmann::json add_ties(const Evaluation& e, const Lattice& lattice, PackedArray
   const TieTable& ties = e.last.frame.ties;
   if (!at_rest(e) || ties.size() == 0) return nullptr;
   std::vector<Vec3> ends;
-  for (int i = 0; i < ties.size(); ++i) ends.insert(ends.end(), {ties.point_a[i], ties.point_b[i]});
+  std::vector<double> tensions;
+  for (int i = 0; i < ties.size(); ++i) {
+    const double tension = ties.strut[i] != 0 ? -ties.force[i] : ties.force[i];
+    const size_t n = ends.size();  // a rod is a tie and a strut between the same points
+    if (n > 0 && ends[n - 2] == ties.point_a[i] && ends[n - 1] == ties.point_b[i]) {
+      tensions.back() += tension;
+      continue;
+    }
+    ends.insert(ends.end(), {ties.point_a[i], ties.point_b[i]});
+    tensions.push_back(tension);
+  }
   arrays->add_points("ties", ends, lattice);
-  arrays->add("tie.force", ties.force);
+  arrays->add("tie.force", tensions);
   return e.chains.empty() ? "Ties" : "Chains";
 }
 

@@ -108,7 +108,7 @@ class Viewer {
   showTies(on) {
     const legend = this.find(".ties-legend");
     this.model.ties.visible = on, legend.hidden = !on;
-    legend.innerHTML = bar({label: `Tension, ${this.header.ties.toLowerCase()}`, unit: "N"}, this.model.tieScale, false);
+    legend.innerHTML = bar({label: `Tension${this.model.tieScale.low < 0 ? " (thrust negative)" : ""}, ${this.header.ties.toLowerCase()}`, unit: "N"}, this.model.tieScale, false);
     if (on && this.find(".blocks").value === "solid") this.setBlocks("ghost");
     this.stage.invalidate();
   }

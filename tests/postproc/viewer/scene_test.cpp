@@ -145,6 +145,24 @@ TEST(Scene, HoldsTheDoublesOfTheTables) {
   }
 }
 
+// A rod under thrust, which is a tie and a strut, and a tie.
+TEST(Scene, HoldsOneTensionPerRodThrustNegative) {
+  Evaluation e = test::column_evaluation(0.5, 0.3);
+  TieTable& ties = e.last.frame.ties;
+  ties.chain = {-1, -1, -1};
+  ties.block_a = {0, 0, 0};
+  ties.block_b = {1, 1, 2};
+  ties.point_a = {Vec3::Zero(), Vec3::Zero(), Vec3::UnitX()};
+  ties.point_b = {Vec3::UnitZ(), Vec3::UnitZ(), Vec3::UnitZ()};
+  ties.force = {0.0, 1183.0, 500.0};
+  ties.yield_force.assign(3, std::numeric_limits<double>::infinity());
+  ties.yielded.assign(3, 0.0);
+  ties.strut = {0, 1, 0};
+  const std::string bytes = column_scene(e);
+  EXPECT_EQ(decoded(bytes, "tie.force"), (std::vector<double>{-1183.0, 500.0}));
+  EXPECT_EQ(decoded(bytes, "ties").size(), 12u);
+}
+
 // The joint of blocks 1 and 2 may carry 1 to 3 MN: a range of 2 MN about 2 MN. The others have no range.
 TEST(Scene, HoldsTheCertaintyOfTheJoints) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
