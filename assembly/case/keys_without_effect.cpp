@@ -25,30 +25,42 @@ class Refusal {
     unless(ring <= last,
            fmt::format("{} = {}: has no effect: the model has the rings 0 to {}", key, ring, last));
   }
-  void law(const char* kind, bool given, bool present, const char* what) const {
-    unless(!given || present,
-           fmt::format("joints.{}: has no effect: the model has no {}; remove it", kind, what));
-  }
 
  private:
   const Assembly& assembly_;
 };
 
-bool have_herringbone(const Assembly& assembly) {
-  return std::ranges::any_of(assembly.blocks,
-                             [](const Block& b) { return b.kind == BlockKind::herringbone; });
-}
-
-void check_joints(const Joints& joints, const Assembly& assembly, const Refusal& refuse) {
-  refuse.law("herringbone", joints.herringbone.has_value(), have_herringbone(assembly), "herringbone block");
-  refuse.law("wythe", joints.wythe.has_value(),
-             std::ranges::find(assembly.face_kinds, FaceKind::wythe) != assembly.face_kinds.end(),
-             "joint between layers of the thickness");
+/// Kinds of joints that not every model has.
+void check_kinds(const Case& scene, const Assembly& assembly, const Refusal& refuse) {
+  using Sort = RingJoints::Sort;
+  const Joints& joints = scene.joints;
+  const auto have = [&](FaceKind kind) {
+    return std::ranges::find(assembly.face_kinds, kind) != assembly.face_kinds.end();
+  };
+  const auto have_block = [&](const auto& is_it) { return std::ranges::any_of(assembly.blocks, is_it); };
+  const auto is_herringbone = [](const Block& block) { return block.kind == BlockKind::herringbone; };
   const auto is_piece = [](const Block& block) { return block.name.find('#') != std::string::npos; };
-  refuse.law("pieces", joints.pieces.has_value(), std::ranges::any_of(assembly.blocks, is_piece),
-             "imported block in pieces, named NAME#1, NAME#2, ...");
-  for (size_t i = 0; i < joints.rings.size(); ++i)
-    refuse.course(fmt::format("joints.rings[{}].from", i), joints.rings[i].from);
+  const struct {
+    Sort sort;
+    bool has_law, exists;
+    const char* what;
+  } kinds[] = {
+      {Sort::bed, joints.bed.has_value(), have(FaceKind::bed), "joint between courses"},
+      {Sort::head, joints.head.has_value(), have(FaceKind::head), "joint within a course"},
+      {Sort::herringbone, joints.herringbone.has_value(), have_block(is_herringbone), "herringbone block"},
+      {Sort::wythe, joints.wythe.has_value(), have(FaceKind::wythe), "joint between layers of the thickness"},
+      {Sort::pieces, joints.pieces.has_value(), have_block(is_piece),
+       "imported block in pieces, named NAME#1, NAME#2, ..."}};
+  for (const auto& kind : kinds) {
+    const auto check = [&](bool given, const std::string& key) {
+      refuse.unless(!given || kind.exists,
+                    fmt::format("{}: has no effect: the model has no {}; remove it", key, kind.what));
+    };
+    const std::string name = to_string(kind.sort);
+    check(kind.has_law, fmt::format("joints.{}", name));
+    for (size_t i = 0; i < joints.rings.size(); ++i)
+      check(joints.rings[i].sort == kind.sort, fmt::format("joints.rings[{}].kind = {}", i, name));
+  }
 }
 
 void check_sequence(const std::vector<BlockRef>& sequence, const Assembly& assembly, const Refusal& refuse) {
@@ -70,7 +82,9 @@ void check_sequence(const std::vector<BlockRef>& sequence, const Assembly& assem
 
 void refuse_keys_without_effect(const Case& scene, const Assembly& assembly) {
   const Refusal refuse(assembly);
-  check_joints(scene.joints, assembly, refuse);
+  check_kinds(scene, assembly, refuse);
+  for (size_t i = 0; i < scene.joints.rings.size(); ++i)
+    refuse.course(fmt::format("joints.rings[{}].from", i), scene.joints.rings[i].from);
   for (size_t i = 0; i < scene.loads.faces.size(); ++i)
     refuse.course(fmt::format("loads.faces[{}].from_ring", i), scene.loads.faces[i].from_ring);
   const Analysis& analysis = scene.analysis;
