@@ -87,6 +87,11 @@ void refuse_keys_without_effect(const Case& scene, const Assembly& assembly) {
     refuse.course(fmt::format("joints.rings[{}].from", i), scene.joints.rings[i].from);
   for (size_t i = 0; i < scene.loads.faces.size(); ++i)
     refuse.course(fmt::format("loads.faces[{}].from_ring", i), scene.loads.faces[i].from_ring);
+  for (size_t i = 0; i < scene.loads.forces.size(); ++i) {
+    const std::optional<SharingBlocks>& over = scene.loads.forces[i].over;
+    refuse.unless(!over || over->course < 0 || assembly.num_rings > 0,
+                  fmt::format("loads.forces[{}].over.course: the model has no courses; remove it", i));
+  }
   const Analysis& analysis = scene.analysis;
   if (analysis.type == AnalysisType::limit && analysis.limit.joints)
     refuse.course("analysis.limit.joints.from", analysis.limit.joints->from);
