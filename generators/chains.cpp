@@ -106,9 +106,10 @@ class Level {
     const int found = blocks.block_at(at(level, abscissa, chain_.place), kMostOutside * thickness);
     if (found < 0)
       throw InputError(
-          fmt::format("{}.place = {}: a bar would end in a cavity; give a place in which all "
-                      "anchors lie in blocks, from 0 (intrados) to 1 (extrados)",
-                      key_, chain_.place));
+          fmt::format("{}.place = {}: a bar would end more than {:g} of the thickness outside the blocks, in "
+                      "a cavity or beyond the facets of few slices; give a place in which all anchors lie in "
+                      "blocks, from 0 (intrados) to 1 (extrados), or more slices_per_block",
+                      key_, chain_.place, kMostOutside));
     return found;
   }
   /// The bed at the height of the chain, between a lower bed and a higher one.
