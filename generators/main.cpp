@@ -109,7 +109,9 @@ PreparedRun prepare(int argc, char** argv) {
     const Assembly assembly = with_places_of_keys(
         *scene, [&] { return generate_again(*scene, std::move(blocks->assembly), blocks->report); });
     if (!line->quiet()) fmt::print("{}", to_text(blocks->report));
-    line->report_warnings(united({assembly.case_warnings, assembly.block_warnings}));
+    std::vector<std::string> lost;
+    if (!files.exported.empty()) lost = lost_by_export(files.exported, assembly);
+    line->report_warnings(united({assembly.case_warnings, assembly.block_warnings, lost}));
     return write_files(files, *scene, assembly, blocks->report);
   };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   const Evaluation& e = run.evaluation;
   std::vector<std::string> warnings = e.warnings;
   const FrameRole role = e.last.frame.role;
+  std::ranges::move(lost_by_export(path, e.assembly), std::back_inserter(warnings));
   const bool moves = role == FrameRole::step || role == FrameRole::path;
   if (is_stage(role))
     if (const auto missing = std::ranges::count(laid_blocks(e.assembly, e.last.frame), false); missing > 0)

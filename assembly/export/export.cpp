@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/export/formats.hpp"
 #include "assembly/export/placed_assembly.hpp"
@@ -25,11 +26,12 @@ void write_placed_assembly(const std::string& path, const ExportModel& model) {
 struct ExportFormat {
   const char* ending;
   void (*write)(const std::string& path, const ExportModel&);
+  bool loses_ties;  ///< holds the structure, but without them
 };
-constexpr std::array kFormats{ExportFormat{".gltf", write<gltf_text>}, ExportFormat{".obj", write<obj_text>},
-                              ExportFormat{".json", write<compas_text>},
-                              ExportFormat{".csv", write<blocks_csv>},
-                              ExportFormat{".vtu", write_placed_assembly}};
+constexpr std::array kFormats{
+    ExportFormat{".gltf", write<gltf_text>, true}, ExportFormat{".obj", write<obj_text>, true},
+    ExportFormat{".json", write<compas_text>, true}, ExportFormat{".csv", write<blocks_csv>, false},
+    ExportFormat{".vtu", write_placed_assembly, false}};
 
 const ExportFormat& format_of(const std::string& path) {
   for (const ExportFormat& format : kFormats)
@@ -41,6 +43,12 @@ const ExportFormat& format_of(const std::string& path) {
 
 void check_export_path(const std::string& path) {
   format_of(path);
+}
+
+std::vector<std::string> lost_by_export(const std::string& path, const Assembly& assembly) {
+  if (assembly.ties.empty() || !format_of(path).loses_ties) return {};
+  return {fmt::format("{} holds no ties: {} of chains, rods or springs are lost; export to .vtu to keep them",
+                      path, counted(assembly.ties.size(), "tie"))};
 }
 
 void write_export(const std::string& path, const ExportModel& model) {

@@ -70,5 +70,17 @@ TEST(Export, RefusesOtherEndings) {
   }
 }
 
+TEST(Export, SaysWhichFormatsLoseTies) {
+  Assembly a = test::two_block_assembly();
+  EXPECT_TRUE(lost_by_export("dome.obj", a).empty());
+  a.ties.resize(2);
+  for (const char* path : {"dome.gltf", "dome.obj", "dome.json"}) {
+    const std::vector<std::string> lost = lost_by_export(path, a);
+    ASSERT_EQ(lost.size(), 1u) << path;
+    EXPECT_EQ(lost[0].find(std::string(path) + " holds no ties: 2 ties"), 0u) << lost[0];
+  }
+  EXPECT_TRUE(lost_by_export("dome.vtu", a).empty());
+}
+
 }  // namespace
 }  // namespace cupola::gltf_test
