@@ -6,8 +6,8 @@
 namespace cupola {
 namespace {
 
-/// The label of a block, with %XX instead of what would end the line, begin a comment or vanish when it is
-/// read.
+/// The label of a block, with %XX instead of what would end the line or vanish when it is read. A # begins a
+/// comment only at the start of a word.
 std::string obj_name(const ExportModel& model, size_t block) {
   const std::string label = block_label(model.assembly, static_cast<int>(block));
   const size_t first = label.find_first_not_of(' '), last = label.find_last_not_of(' ');
@@ -15,7 +15,8 @@ std::string obj_name(const ExportModel& model, size_t block) {
   for (size_t i = 0; i < label.size(); ++i) {
     const auto c = static_cast<unsigned char>(label[i]);
     const bool outer_blank = c == ' ' && (i < first || i > last);
-    const bool plain = c > 0x1f && c != 0x7f && c != '#' && c != '%' && c != '\\' && !outer_blank;
+    const bool comment = c == '#' && (i == 0 || label[i - 1] == ' ');
+    const bool plain = c > 0x1f && c != 0x7f && c != '\\' && !comment && !outer_blank;
     name += plain ? std::string(1, label[i]) : fmt::format("%{:02X}", c);
   }
   return name;
