@@ -57,6 +57,14 @@ Assembly import_assembly(const ImportedBlocks& source) {
   return read_assembly(source.path);
 }
 
+/// Throws InputError for a material of the case that no free block of an import takes.
+void refuse_material(const Case& input) {
+  if (input.material.unit_weight != Material{}.unit_weight)
+    throw InputError(
+        fmt::format("material: has no effect: every free block of {} has a density of its own; remove it",
+                    input.geometry.imported->path));
+}
+
 /// Multiplies density, mass and inertia of each free block by the mean of a random function of place over the
 /// block, by its values at the centroids of tetrahedra. Nothing if the density does not vary.
 void vary_density(const Imperfections& imperfections, Assembly* assembly) {
@@ -175,6 +183,7 @@ Assembly with_report(Assembly assembly, const GenerateReport& report, const Case
 
 /// An imported assembly of Cupola, checked as its joints are found by the solver.
 Assembly assembly_again(const Case& input, GenerateReport* report) {
+  refuse_material(input);
   Assembly assembly = import_assembly(*input.geometry.imported);
   if (input.geometry.imperfections) vary_density(*input.geometry.imperfections, &assembly);
   assembly.title = input.title;
@@ -203,6 +212,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     if (is_assembly_file(*geometry.imported)) return assembly_again(input, report);
     report->import.emplace();
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
+    if (!report->import->uses_material) refuse_material(input);
     if (geometry.imperfections) vary_density(*geometry.imperfections, &assembly);
     assembly.title = input.title;
     assembly.geometry_hash = input.geometry_hash;

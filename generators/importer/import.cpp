@@ -185,6 +185,8 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   compare_volumes(drawn, assembly, report);
   report->unusual_size = unusual_size(source, *report);
   fix_supports(source, raw, *report, &assembly);
+  for (size_t b = 0; b < raw.size(); ++b)
+    report->uses_material |= !assembly.blocks[b].fixed && !raw[b].density;
   report->doubt_of_axes = doubt_of_axes(source, *report, assembly);
   assembly.ties = read_ties(source, raw);
   report->ties = static_cast<int>(assembly.ties.size());

@@ -37,6 +37,7 @@ struct ImportReport {
   double most_changed = 0.0;     ///< by this share of it
   double unusual_size = 0.0;     ///< m, mean size of the blocks if the unit is doubtful
   int ties = 0;
+  bool uses_material = false;       ///< a free block has no density of its own
   std::string doubt_of_axes;        ///< why another axis may be upward; empty: no doubt
   std::vector<int> course_numbers;  ///< per block, as in the file; kNoCourse: none; empty: the file has none
   CourseReport courses;

@@ -1,4 +1,5 @@
 // Assemblies of Cupola as blocks of a case.
+#include "assembly/export/export.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "tests/generators/importer/import_files.hpp"
@@ -40,6 +41,27 @@ TEST_F(Import, RefusesKeysThatAnAssemblyAnswers) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("geometry.import.fixed_by: has no effect"), std::string::npos)
         << error.what();
+  }
+}
+
+// Files of Cupola and its COMPAS files give every block a density: a material could not change it.
+TEST_F(Import, RefusesAMaterialThatNoBlockTakes) {
+  const Assembly arch = generate(arch_case());
+  for (const char* ending : {".vtu", ".json", ".obj"}) {
+    const std::string path = (folder_ / "arch").string() + ending;
+    write_export(path, {arch, {}, {}});
+    Case scene;
+    scene.geometry.imported.emplace().path = path;
+    EXPECT_NO_THROW(generate(scene)) << path;
+    scene.material.unit_weight = 25000.0;
+    std::string message;
+    try {
+      generate(scene);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(message.find("material: has no effect") != std::string::npos, std::string(ending) != ".obj")
+        << path << ": " << message;
   }
 }
 
