@@ -88,12 +88,29 @@ void add_mesh(const Json& node, const Json& data, Walk* walk) {
   walk->blocks.push_back(std::move(block));
 }
 
+/// Throws InputError for a solid beside meshes that is none: it would be missing. Points, lines and frames
+/// mark something.
+void refuse_other_solids(const Json& list, const FileLocation& where) {
+  if (std::ranges::none_of(list, [](const Json& child) { return mesh_in(child) != nullptr; })) return;
+  for (size_t i = 0; i < list.size(); ++i) {
+    if (!list[i].is_object() || !list[i].contains("dtype") || !list[i]["dtype"].is_string()) continue;
+    const std::string type = list[i]["dtype"].get<std::string>();
+    for (const char* solid : {"Box", "Polyhedron", "Brep", "Cylinder", "Cone", "Sphere", "Capsule", "Torus"})
+      if (type.ends_with(solid))
+        throw InputError(where,
+                         fmt::format("object {} of a list of meshes is a {}: export it as a mesh, with "
+                                     "`vertex` and `face`",
+                                     i + 1, type));
+  }
+}
+
 /// Adds the meshes in `node`, numbered ones by number. An element is an object with `is_support`; files of
 /// compas_dem state it for every block.
 void find_meshes(const Json& node, Walk* walk) {
   if (const Json* data = mesh_in(node)) return add_mesh(node, *data, walk);
   if (!node.is_structured()) return;
   if (node.is_array()) {
+    refuse_other_solids(node, walk->where);
     for (const Json& child : node) find_meshes(child, walk);
     return;
   }

@@ -126,6 +126,11 @@ TEST(CompasMeshes, AreRefusedWithTheReason) {
   };
   EXPECT_NE(complaint(R"([{"transformation": [1, 0], "geometry": )" + cube(0) + "}]").find("transformation"),
             std::string::npos);
+  const std::string box = R"({"dtype": "compas.geometry/Box", "data": {"xsize": 1, "ysize": 1, "zsize": 1}})";
+  EXPECT_NE(complaint("[" + cube(0) + ", " + box + "]")
+                .find("object 2 of a list of meshes is a compas.geometry/Box"),
+            std::string::npos);
+  EXPECT_EQ(complaint("[" + cube(0) + R"(, {"dtype": "compas.geometry/Frame", "data": {}}])"), "");
   EXPECT_NE(complaint(R"({"dtype": "other"})").find("not a COMPAS assembly"), std::string::npos);
   EXPECT_NE(complaint(R"([{"dtype": "m", "data": {"vertex": {}, "face": {}}}])").find("no faces"),
             std::string::npos);
