@@ -102,10 +102,11 @@ bool are_pieces_of_one_block(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-JointClass joint_class(const Assembly& assembly, const Patch& patch) {
+JointClass joint_class(const Assembly& assembly, const Patch& patch, bool of_pieces) {
   if (patch.kind == JointKind::base) return JointClass::base;
-  if (are_pieces_of_one_block(assembly.blocks[patch.block_a].name, assembly.blocks[patch.block_b].name))
-    return JointClass::pieces;
+  const bool is_piece =
+      are_pieces_of_one_block(assembly.blocks[patch.block_a].name, assembly.blocks[patch.block_b].name);
+  if (is_piece && of_pieces) return JointClass::pieces;
   const auto is_herringbone = [&](int block) {
     return assembly.blocks[block].kind == BlockKind::herringbone;
   };
@@ -114,11 +115,14 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch) {
     return is_bed ? JointClass::herringbone_bed : JointClass::herringbone_other;
   if (is_bed) return JointClass::bed;
   if (patch.kind == JointKind::wythe) return JointClass::wythe;
-  return patch.kind == JointKind::head ? JointClass::head : JointClass::other;
+  if (patch.kind == JointKind::head) return JointClass::head;
+  return is_piece ? JointClass::pieces : JointClass::other;
 }
 
 JointTable::JointTable(const Joints& joints, int num_rings)
-    : failure_(joints.failure),
+    : has_pieces_(joints.pieces || std::ranges::find(joints.rings, RingJoints::Sort::pieces,
+                                                     &RingJoints::sort) != joints.rings.end()),
+      failure_(joints.failure),
       per_area_(joints.compliance.per == Compliance::Per::area),
       has_strength_(joints.have_strength()) {
   if (const auto& field = joints.field) {
@@ -147,7 +151,7 @@ JointTable::JointTable(const Joints& joints, int num_rings)
 }
 
 JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area, int multiplicity) const {
-  const std::vector<ClassLaw>& rings = laws_[static_cast<int>(joint_class(assembly, patch))];
+  const std::vector<ClassLaw>& rings = laws_[static_cast<int>(joint_class(assembly, patch, has_pieces_))];
   const ClassLaw& of_class = rings[std::clamp(patch.ring, 0, static_cast<int>(rings.size()) - 1)];
   JointLaw law = of_class.law;
   CUPOLA_ASSERT(!rings.empty() && multiplicity >= 1);

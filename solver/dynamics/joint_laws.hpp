@@ -29,11 +29,12 @@ struct JointLaw {
 };
 
 /// Classes of joints that can have different laws. A base joint lies on a support. A herringbone joint
-/// touches a herringbone block. Pieces belong to one imported block: their names differ only after a '#'. A
-/// wythe joint lies between layers of the thickness.
+/// touches a herringbone block. A wythe joint lies between layers of the thickness. Pieces belong to one
+/// imported block: their names differ only after a '#'.
 enum class JointClass { bed, head, herringbone_bed, herringbone_other, base, pieces, wythe, other };
 constexpr int kNumJointClasses = 8;
-JointClass joint_class(const Assembly& assembly, const Patch& patch);
+/// `of_pieces`: the case gives joints of pieces a law; otherwise those that are bed or head remain so.
+JointClass joint_class(const Assembly& assembly, const Patch& patch, bool of_pieces);
 
 /// The law of every class of joint in every ring. Laws of rings override laws of classes, and these override
 /// the general law of the case.
@@ -55,6 +56,7 @@ class JointTable {
  private:
   std::array<std::vector<ClassLaw>, kNumJointClasses> laws_;  // by class, then ring
   RandomField friction_, strength_, compliance_;
+  bool has_pieces_ = false;
   JointFailure failure_ = JointFailure::plastic;
   bool per_area_ = false, has_strength_ = false;
 };

@@ -98,11 +98,11 @@ TEST(JointLaws, JointsOfHerringboneBlocksAreHerringboneExceptOnSupports) {
   patch.block_a = 1;
   patch.block_b = 2;
   patch.kind = JointKind::bed;
-  EXPECT_EQ(joint_class(stack, patch), JointClass::herringbone_bed);
+  EXPECT_EQ(joint_class(stack, patch, true), JointClass::herringbone_bed);
   patch.block_a = 0;
   patch.block_b = 1;
   patch.kind = JointKind::base;
-  EXPECT_EQ(joint_class(stack, patch), JointClass::base);
+  EXPECT_EQ(joint_class(stack, patch, true), JointClass::base);
 }
 
 TEST(JointLaws, PiecesOfOneImportedBlockHaveTheirOwnLaw) {
@@ -114,7 +114,7 @@ TEST(JointLaws, PiecesOfOneImportedBlockHaveTheirOwnLaw) {
   const auto class_of = [&](const char* a, const char* b) {
     stack.blocks[1].name = a;
     stack.blocks[2].name = b;
-    return joint_class(stack, patch);
+    return joint_class(stack, patch, true);
   };
   EXPECT_EQ(class_of("brick 7#1", "brick 7#2"), JointClass::pieces);
   EXPECT_EQ(class_of("brick 7#1", "brick 8#1"), JointClass::other);
@@ -125,6 +125,23 @@ TEST(JointLaws, PiecesOfOneImportedBlockHaveTheirOwnLaw) {
   joints.pieces.emplace();
   joints.pieces->friction = 0.9;
   class_of("a#1", "a#2");
+  EXPECT_EQ(JointTable(joints, 1).law(stack, patch, 1.0).mu, 0.9);
+}
+
+// Names like "Block #1" are common: without a law of pieces, they leave a bed a bed.
+TEST(JointLaws, NamesOfPiecesHaveNoMeaningWithoutTheirLaw) {
+  Assembly stack = testing::stack_of_cubes(1.0, {1000.0, 1000.0});
+  stack.blocks[1].name = "a#1";
+  stack.blocks[2].name = "a#2";
+  Patch patch;
+  patch.block_a = 1;
+  patch.block_b = 2;
+  patch.kind = JointKind::bed;
+  Joints joints;
+  joints.bed.emplace().friction = 0.1;
+  EXPECT_EQ(JointTable(joints, 1).law(stack, patch, 1.0).mu, 0.1);
+  joints.rings.push_back({.sort = RingJoints::Sort::pieces, .law = joints.bed.value()});
+  joints.rings.front().law.friction = 0.9;
   EXPECT_EQ(JointTable(joints, 1).law(stack, patch, 1.0).mu, 0.9);
 }
 
