@@ -62,7 +62,7 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   bool good = true;
   for (const EnsembleResults& one : all) {
     const std::string failed = failures(one.members, "member");
-    good = good && failed.empty() && fallen_rows(one.members).empty();
+    good = good && failed.empty() && !one.some_fall();
     if (!failed.empty())
       sentences.push_back(fmt::format("{}: {} failed; in all {}.", one.name, failed, endings(one.members)));
     if (!one.runs->design)

@@ -119,8 +119,9 @@ Figure convergence_figure(const EnsembleResults& ensemble) {
   Figure f;
   f.name = ensemble.name + "_convergence";
   const size_t n = ensemble.falls.size();
-  const std::optional<size_t> critical = ensemble.censored() ? std::nullopt : ensemble.critical_column();
-  const bool varies = critical ? std::ranges::count(ensemble.results, *critical) > 0 : ensemble.some_fall();
+  const std::optional<size_t> critical = ensemble.critical_column();
+  const bool varies = critical ? !ensemble.censored() && std::ranges::count(ensemble.results, *critical) > 0
+                               : ensemble.some_fall();
   if (!ensemble.independent() || n < kFewest || !varies) return f;
   f.title = critical ? "Mean critical value over the number of members"
                      : "Probability of falling over the number of members";

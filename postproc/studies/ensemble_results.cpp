@@ -9,7 +9,6 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/files/number_text.hpp"
-#include "assembly/model/ending.hpp"
 #include "postproc/studies/saltelli.hpp"
 #include "postproc/studies/sweep.hpp"
 
@@ -117,8 +116,8 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
     only_a += a.falls[i] > b.falls[i];
     only_b += a.falls[i] < b.falls[i];
   }
-  const bool some_fall = std::ranges::count(a.falls, 1) + std::ranges::count(b.falls, 1) > 0;
-  if (some_fall && both > 0) {
+  const bool limits = a.critical_column() || b.critical_column();
+  if (!limits && (a.some_fall() || b.some_fall()) && both > 0) {
     const double p = mcnemar(only_a, only_b);
     table->rows.push_back({pair, std::string("falls"), both, share(in_a, both), share(in_b, both),
                            share(only_a - only_b, both), kNone, kNone, kNone, kNone, kNone, p});
@@ -213,17 +212,14 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
       ensemble.name, &ensemble, sweep_table(ensemble.samples.keys, ensemble.runs, runs_folder), {}};
   out.members.name = ensemble.name;
   out.members.title = "The members of the ensemble";
-  const size_t status = out.members.column_named("status");
-  for (const auto& row : out.members.rows) {
-    const std::string ending = to_display(row[status]);
-    out.falls.push_back(stands(ending) ? 0 : falls(ending) ? 1 : -1);
-  }
+  out.falls = falls_of(out.members);
   out.more_is_safer = more_is_safer(ensemble.runs, runs_folder);
   return out;
 }
 
 std::string result_sentence(const EnsembleResults& ensemble) {
-  if (const auto column = ensemble.critical_column()) return critical_sentence(ensemble, *column);
+  if (const auto column = ensemble.critical_column())
+    return fmt::format("{} Verdicts: {}.", critical_sentence(ensemble, *column), endings(ensemble.members));
   const auto count = [&ensemble](int verdict) { return std::ranges::count(ensemble.falls, verdict); };
   std::string text =
       fmt::format("{}: {} of {} fall", ensemble.name, count(1), counted(ensemble.falls.size(), "member"));
@@ -310,12 +306,16 @@ Table ends_table(const EnsembleResults& ensemble) {
   constexpr size_t kEach = 3;
   Table t{ensemble.name + "_ends", "Members at the ends", {}, {}};
   t.columns = {{"why", "", "Why"}, {"value", "", "Value"}};
-  const size_t status = ensemble.members.column_named("status");
-  for (size_t k = 0; k <= status; ++k) t.columns.push_back(ensemble.members.columns[k]);
+  const auto& columns = ensemble.members.columns;
+  const size_t status = ensemble.members.column_named("status"),
+               verdict = ensemble.members.column_named("verdict");
+  t.columns.insert(t.columns.end(), columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(status));
+  t.columns.push_back(columns[verdict]);
   const auto add = [&](const std::string& why, const Table::Cell& value, size_t member) {
     std::vector<Table::Cell> row = {why, value};
     const auto& cells = ensemble.members.rows[member];
-    row.insert(row.end(), cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(status) + 1);
+    row.insert(row.end(), cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(status));
+    row.push_back(cells[verdict]);
     t.rows.push_back(std::move(row));
   };
   size_t fallen = 0;

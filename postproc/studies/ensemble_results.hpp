@@ -15,7 +15,7 @@ struct EnsembleResults {
   std::string name;
   const SampledRuns* runs = nullptr;
   Table members;           ///< sweep_table()
-  std::vector<int> falls;  ///< of each member: 1 falls, 0 stands, -1 no verdict
+  std::vector<int> falls;  ///< falls_of() the members
   std::vector<size_t> results =
       {};                     ///< columns of `members` that vary in one of the ensembles to be compared
   bool more_is_safer = true;  ///< of critical values
@@ -27,8 +27,8 @@ struct EnsembleResults {
   /// Numbers of a column, of the first `count` members only. Critical values of members that fall, or stand,
   /// throughout their bracket are infinite.
   DrawnValues values(size_t column, size_t count = static_cast<size_t>(-1)) const;
-  /// Column of the critical values; nothing without any. Limit analyses stand by construction: their critical
-  /// values say how far.
+  /// Column of the critical values; nothing without any. They, not how many fall, are the answer of limits:
+  /// members may have no value to compare with them.
   std::optional<size_t> critical_column() const;
   /// Some critical values are infinite: they have quantiles, but no mean.
   bool censored() const;
@@ -40,9 +40,9 @@ struct EnsembleResults {
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
 
-/// Of limit analyses the median and two quantiles of the critical value, and how many members have none; else
-/// how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a verdict widen
-/// the interval both ways.
+/// Of limit analyses the median and two quantiles of the critical value, how many members have none, and the
+/// verdicts; else how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a
+/// verdict widen the interval both ways.
 std::string result_sentence(const EnsembleResults& ensemble);
 
 /// A row per result: mean, standard deviation and quantiles, each with its interval.

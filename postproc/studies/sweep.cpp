@@ -1,6 +1,7 @@
 #include "postproc/studies/sweep.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -31,11 +32,24 @@ std::vector<std::string> texts_of(const Table& table, const std::string& key) {
 
 std::string endings(const Table& table) {
   std::map<std::string, int> count;
-  for (const std::string& status : texts_of(table, "status")) ++count[status];
+  for (std::string& verdict : texts_of(table, "verdict")) {
+    verdict.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(verdict.front())));
+    ++count[verdict];
+  }
   std::string text;
-  for (const auto& [status, members] : count)
-    text = fmt::format("{} {}{}{}", members, status, text.empty() ? "" : ", ", text);  // stable before moving
+  for (const auto& [verdict, members] : count)
+    text += fmt::format("{}{} in {}", text.empty() ? "" : ", ", verdict, members);
   return text;
+}
+
+std::vector<int> falls_of(const Table& table) {
+  std::vector<int> out;
+  for (const std::string& verdict : texts_of(table, "verdict")) {
+    const bool falls = verdict.starts_with("It falls") || verdict.ends_with("what falls");
+    const bool stands = verdict.starts_with("It stands") && !verdict.ends_with("undecided");
+    out.push_back(falls ? 1 : stands ? 0 : -1);
+  }
+  return out;
 }
 
 std::string failures(const Table& table, const std::string& noun) {
@@ -45,6 +59,10 @@ std::string failures(const Table& table, const std::string& noun) {
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), noun));
 }
 
+namespace {
+
+/// Rows whose structure falls whatever the value sought. A construction that falls with the mortar of its
+/// case may have a least mortar.
 std::vector<size_t> fallen_rows(const Table& table) {
   const std::vector<std::string> statuses = texts_of(table, "status");
   const size_t critical = table.column_named("critical_value");
@@ -55,8 +73,6 @@ std::vector<size_t> fallen_rows(const Table& table) {
   }
   return rows;
 }
-
-namespace {
 
 /// The number of the row with the least value in a column, or the greatest; none without numbers.
 std::optional<size_t> row_at_the_end(const Table& table, size_t column, bool least) {
@@ -133,7 +149,7 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
   for (const std::string& critical : texts_of(table, "critical_value"))
     if (!critical.empty()) return "";
   const std::vector<std::string> values = texts_of(table, sweep.front().key);
-  const std::vector<std::string> statuses = texts_of(table, "status");
+  const std::vector<int> falls = falls_of(table);
   std::vector<std::pair<double, size_t>> order;
   for (size_t i = 0; i < values.size(); ++i) {
     if (!read_number(values[i], &order.emplace_back(0.0, i).first).empty()) return "";
@@ -144,9 +160,7 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
   };
   std::vector<Stretch> stretches;
   for (const auto& [number, i] : order) {
-    const std::string verdict = stands(statuses[i])  ? "stands"
-                                : falls(statuses[i]) ? "falls"
-                                                     : "is undecided";
+    const std::string verdict = falls[i] == 0 ? "stands" : falls[i] == 1 ? "falls" : "is undecided";
     if (stretches.empty() || stretches.back().verdict != verdict)
       stretches.push_back({verdict, values[i], values[i]});
     stretches.back().last = values[i];
@@ -165,22 +179,21 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
 
 /// The banner: in how many members it stands, and at which values.
 std::string banner(const std::vector<SweptKey>& sweep, const Table& table, const std::string& governs) {
-  const std::string ended = endings(table) + ".", failed = failures(table),
+  const std::string runs = counted(table.rows.size(), "run"), failed = failures(table);
+  const std::string ended = fmt::format("Of {}: {}.", runs, endings(table)),
                     where = where_it_stands(sweep, table);
-  const auto standing = std::ranges::count_if(texts_of(table, "status"),
-                                              [](const std::string& status) { return stands(status); });
-  const std::string runs = counted(table.rows.size(), "run");
+  const std::vector<int> falls = falls_of(table);
+  const auto standing = std::ranges::count(falls, 0);
   if (!failed.empty())
     return verdict_html(failed + " failed", where.empty() ? ended : ended + " " + where, false);
   if (!governs.empty()) {
     const size_t stop = governs.find(". ");
-    return verdict_html(
-        governs.substr(0, stop == std::string::npos ? stop : stop + 1),
-        (stop == std::string::npos ? "" : governs.substr(stop + 2) + " ") + ended + " " + runs + ".",
-        fallen_rows(table).empty());
+    return verdict_html(governs.substr(0, stop == std::string::npos ? stop : stop + 1),
+                        (stop == std::string::npos ? "" : governs.substr(stop + 2) + " ") + ended,
+                        std::ranges::count(falls, 1) == 0);
   }
   const bool all = standing == static_cast<std::ptrdiff_t>(table.rows.size());
-  if (where.empty()) return verdict_html(ended, runs + ".", all);
+  if (where.empty()) return verdict_html(ended, "", all);
   return verdict_html(fmt::format("It stands in {} of {}", standing, runs), where, all);
 }
 

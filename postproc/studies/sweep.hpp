@@ -9,18 +9,17 @@
 
 namespace cupola {
 
-/// One row per member: the values that the member gives the `keys`, status, residual, displacement, critical
-/// value and time, and minimum, chosen value and maximum of each range of a range analysis. A member without
-/// results has the status `missing` and a remark that says how far it got.
+/// One row per member: the values that the member gives the `keys`, status, verdict on the case, residual,
+/// displacement, critical value and time, and minimum, chosen value and maximum of each range of a range
+/// analysis. A member without results has the status `missing` and a remark that says how far it got.
 Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyRun>& members,
                   const std::string& runs_folder);
-/// How the members of such a table ended: "6 stable, 2 moving".
+/// The verdicts of such a table: "it falls in 2, it stands in 6".
 std::string endings(const Table& sweep_table);
 /// "2 of 8 runs" that have no results or did not reach their accuracy; "" for none.
 std::string failures(const Table& sweep_table, const std::string& noun = "run");
-/// Rows whose structure falls whatever the value sought. A construction that falls with the mortar of its
-/// case may have a least mortar.
-std::vector<size_t> fallen_rows(const Table& sweep_table);
+/// Of each member 1 if its case falls, 0 if it stands, -1 without a verdict on it.
+std::vector<int> falls_of(const Table& sweep_table);
 /// Columns of numbers that differ by more than rounding between the members of one of the tables; errors and
 /// times are no results.
 std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables);

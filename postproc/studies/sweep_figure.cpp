@@ -93,14 +93,13 @@ Table in_readable_units(Table table) {
     const auto [factor, unit] = readable_unit(table, k);
     table.columns[k].unit = unit;
     table.columns[k].floor *= factor;
-    for (auto& row : table.rows) {
+    for (auto& row : table.rows)
       if (double* value = std::get_if<double>(&row[k])) *value *= factor;
-      const auto* name = std::get_if<std::string>(&row[k]);
-      const auto status =
-          name && table.columns[k].key == "status" ? enum_from_name<Status>(*name) : std::nullopt;
-      if (status) row[k] = words_of(*status);
-    }
   }
+  // What the status of a run means, the verdict says in words.
+  const size_t status = table.column_named("status");
+  for (auto& row : table.rows) row.erase(row.begin() + static_cast<std::ptrdiff_t>(status));
+  table.columns.erase(table.columns.begin() + static_cast<std::ptrdiff_t>(status));
   return table;
 }
 
@@ -109,17 +108,16 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   f.name = "sweep";
   f.title = "Results over " + sweep.front().key;
   f.caption =
-      "Filled points: the structure stands; open points: it does not. Crosses on the lower edge: it falls, "
-      "or the run "
-      "reached no verdict (see the table).";
+      "Filled points: the case stands; open points: it falls, or the run gives no verdict on it. Crosses on "
+      "the lower edge: the run found no equilibrium (see the table).";
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
-  const size_t status = table.column_named("status");
+  const std::vector<int> falls = falls_of(table);
   std::vector<size_t> columns = varying_columns({&table});
   if (columns.size() > kMostPanels) columns.resize(kMostPanels);
   if (columns.empty()) return f;
   const auto curves = curves_of(table, sweep.size());
-  const Rows fallen = without_equilibrium(table, status);
+  const Rows fallen = without_equilibrium(table, table.column_named("status"));
   std::string data = data_block("fallen", fallen);
   std::vector<std::string> plots;
   for (const size_t k : columns) {
@@ -136,8 +134,7 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
       for (const size_t r : members) {
         double x = 0.0;
         read_number(text_of(table.rows[r][1]), &x);
-        rows.push_back(
-            {x, factor * number_of(table.rows[r][k]), stands(text_of(table.rows[r][status])) ? 7.0 : 6.0});
+        rows.push_back({x, factor * number_of(table.rows[r][k]), falls[r] == 0 ? 7.0 : 6.0});
       }
       std::sort(rows.begin(), rows.end());
       const std::string block = fmt::format("column{}_{}", k, n);

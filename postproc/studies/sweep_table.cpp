@@ -8,6 +8,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/results.hpp"
+#include "postproc/report/answers.hpp"
 #include "postproc/studies/study_answers.hpp"
 #include "postproc/studies/sweep.hpp"
 #include "postproc/tables/csv_file.hpp"
@@ -52,6 +53,15 @@ std::string ending_of(RunFiles& run) {
   const std::string status = run.status();
   const bool in_time = run.number_if_any("results.max_speed_m_per_s").has_value();
   return in_time && status == to_string(Status::moving) ? "not at rest" : status;
+}
+
+/// What the report of a run says of its case, which of a limit is not its status.
+std::string verdict_of(RunFiles& run, const std::string& folder) {
+  if (std::filesystem::exists(folder + "/post/answers.json")) return run.answer("verdict.words");
+  Summary summary;  // of a member that was not evaluated
+  summary.status = enum_from_name<Status>(run.status()).value_or(Status::unconverged);
+  summary.max_speed_m_per_s = run.number_if_any("results.max_speed_m_per_s");
+  return words_of_run(summary).words;
 }
 
 /// The last stage that a missing member completed, and why it went no further or what to do.
@@ -138,6 +148,7 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
   Table t{"sweep", "The members of the sweep", {{"member", "", "name of the run"}}, {}};
   for (const std::string& key : keys) t.columns.push_back({key, "", key});
   t.columns.push_back({"status", "", "how the run ended"});
+  t.columns.push_back({"verdict", "", "verdict on the case"});
   t.columns.push_back({"remark", "", "how far a missing member got"});
   const std::vector<Table::Column> numbers = {
       {"critical_value", unit_of_limit(members, runs_folder),
@@ -158,9 +169,11 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
     if (std::filesystem::exists(folder + "/results/summary.json")) {
       RunFiles run(folder);
       row.emplace_back(ending_of(run));
+      row.emplace_back(verdict_of(run, folder));
       row.emplace_back(std::string());
       for (const Table::Column& column : numbers) row.push_back(result_of(run, column.key));
     } else {
+      row.emplace_back(std::string(kMissing));
       row.emplace_back(std::string(kMissing));
       row.emplace_back(progress(runs_folder, member.name));
       row.resize(t.columns.size(), std::string());

@@ -123,7 +123,7 @@ TEST(Commands, TabulateASweepAndReportMissingMembers) {
   const std::string tabulate = "cupola-post study dome.yaml --runs runs --output table";
   const ProgramRun half = folder.run(tabulate);
   EXPECT_EQ(half.code, 1) << half.err;
-  EXPECT_TRUE(contains(half.out, "2 runs: 1 stable, 1 missing")) << half.out;
+  EXPECT_TRUE(contains(half.out, "2 runs: it stands in 1, missing in 1")) << half.out;
   EXPECT_TRUE(contains(half.out, "no assembly: see the output of the run")) << half.out;
   EXPECT_TRUE(contains(half.err, "not run: " + second)) << half.err;
   run_dome(folder, second, "--set joints.friction=0.5");

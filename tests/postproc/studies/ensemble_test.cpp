@@ -309,6 +309,7 @@ TEST(EnsemblePage, HasNoMeanDifferenceWhereAValueIsInfinite) {
       "a less b: critical_value has no mean difference: in 2 of 8 pairs a member falls, or stands, "
       "throughout its bracket.";
   EXPECT_EQ(text.find(said), 0u) << text;
+  EXPECT_EQ(text.find("McNemar"), std::string::npos) << text;
   EXPECT_NE(read_text(scratch.file("page/differences.csv")).find("a less b,critical_value,6,,,,,,,,,"),
             std::string::npos);
 }
@@ -348,7 +349,8 @@ TEST(EnsemblePage, MembersWithoutAVerdictWidenTheInterval) {
   ensembles.erase(ensembles.begin());
   StudyPage page("One", scratch.file("page"));
   const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
-  EXPECT_NE(text.find("b: 1 of 8 members failed; in all 5 stable, 2 moving, 1 missing."), std::string::npos)
+  EXPECT_NE(text.find("b: 1 of 8 members failed; in all it falls in 2, it stands in 5, missing in 1."),
+            std::string::npos)
       << text;
   // 2 of 8: 3.19 to 65.1 %; 3 of 8: 8.52 to 75.5 %.
   EXPECT_NE(text.find("2 of 8 members fall, 1 without a verdict: probability 28.6 % (3.19 to 75.5 %)."),
@@ -393,6 +395,20 @@ TEST(EnsemblePage, BandsOfThrustLinesAndConvergence) {
   EXPECT_NE(figure.find(fmt::format("\n23 {:.9g} {:.9g} {:.9g}", 2.0 / 23.0, all.low, all.high)),
             std::string::npos)
       << figure;
+}
+
+// What falls throughout its bracket is not all that falls: the case of the first member does, too.
+TEST(EnsemblePage, LimitsHaveNoProbabilityOfFalling) {
+  const ScratchFolder scratch;
+  const SampledRuns ensemble = members_with_tables(scratch);
+  for (size_t i = 0; i < 21; ++i)
+    scratch.write(ensemble.runs[i].name + "/results/summary.json",
+                  fmt::format(R"({{"status": "stable", "critical_value": {}}})", 1.0 + i));
+  scratch.write(ensemble.runs[0].name + "/post/answers.json", R"({"verdict": {"words": "It falls"}})");
+  StudyPage page("One", scratch.file("page"));
+  const std::string text = add_ensembles({ensemble}, scratch.folder(), &page);
+  EXPECT_NE(text.find(" Verdicts: it falls in 3, it stands in 20.\n"), std::string::npos) << text;
+  EXPECT_FALSE(std::filesystem::exists(scratch.file("page/figures/a_convergence.gp")));
 }
 
 }  // namespace

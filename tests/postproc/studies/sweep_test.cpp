@@ -35,12 +35,12 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
   EXPECT_EQ(table.rows[0][2], Table::Cell(std::string("stable")));
   EXPECT_EQ(cell_of(table, 0, "max_displacement_m"), Table::Cell(0.5));
   EXPECT_EQ(cell_of(table, 0, "thrust_N"), Table::Cell(std::string())) << "not evaluated";
-  EXPECT_EQ(to_display(table.rows[1][3]), "no results: see the output of the run");
-  EXPECT_EQ(to_display(table.rows[2][3]), "interrupted: repeat the command to resume");
-  EXPECT_EQ(to_display(table.rows[3][3]), "no assembly: see the output of the run");
+  EXPECT_EQ(to_display(cell_of(table, 1, "remark")), "no results: see the output of the run");
+  EXPECT_EQ(to_display(cell_of(table, 2, "remark")), "interrupted: repeat the command to resume");
+  EXPECT_EQ(to_display(cell_of(table, 3, "remark")), "no assembly: see the output of the run");
   scratch.write(members[3].name + "/errors.txt",
                 "cupola-generate: error: joints.friction = x: not a number\n");
-  EXPECT_EQ(to_display(sweep_table({"joints.friction"}, members, scratch.folder()).rows[3][3]),
+  EXPECT_EQ(to_display(cell_of(sweep_table({"joints.friction"}, members, scratch.folder()), 3, "remark")),
             "no assembly: joints.friction = x: not a number");
 }
 
@@ -84,9 +84,9 @@ TEST(SweepTable, HasTheResultsOfTheMembers) {
   EXPECT_NE(html.find("dome_friction0.1/post/report.html\""), std::string::npos);
   EXPECT_NE(html.find("<th>outward thrust<small>kN</small></th>"), std::string::npos) << html;
   EXPECT_NE(html.find("<th>widest crack<small>mm</small></th>"), std::string::npos);
-  EXPECT_NE(html.find("<td class=\"text\">it stands</td>"), std::string::npos)
+  EXPECT_NE(html.find("<td class=\"text\">It stands</td>"), std::string::npos)
       << "not the name of the status";
-  EXPECT_NE(read_text(scratch.file("page/sweep.csv")).find(",stable,,0.3,"), std::string::npos);
+  EXPECT_NE(read_text(scratch.file("page/sweep.csv")).find(",stable,It stands,,0.3,"), std::string::npos);
   EXPECT_EQ(html.find("dome_friction0.2/post/report.html\""), std::string::npos);
   const std::string latex = read_text(scratch.file("page/sweep.tex"));
   EXPECT_NE(latex.find("outward thrust (N)"), std::string::npos) << latex;
@@ -108,8 +108,8 @@ TEST(SweepTable, IsRedWhereMembersFall) {
     add_sweep(sweep, members, scratch.folder(), &page);
     page.write();
     const std::string html = read_text(scratch.file("page/study.html"));
-    EXPECT_NE(html.find(fmt::format("<p class=\"verdict bad\"><strong>{}.</strong>",
-                                    one ? "1 stable, 1 moving" : "2 moving")),
+    EXPECT_NE(html.find(fmt::format("<p class=\"verdict bad\"><strong>Of 2 runs: {}.</strong>",
+                                    one ? "it falls in 1, it stands in 1" : "it falls in 2")),
               std::string::npos);
   }
 }
@@ -240,23 +240,51 @@ TEST(SweepTable, ConstructionsWithALeastMortarDoNotFallThroughout) {
   EXPECT_EQ(text.find("fall throughout"), std::string::npos) << text;
 }
 
+// Of limits whose ends were found, the first case has less friction than it needs, and the second no value to
+// compare: neither stands.
+TEST(SweepTable, TheVerdictOfALimitIsThatOnItsCase) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"geometry.thickness", {"0.5", "0.6"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "arch"))
+    members.push_back({member.name, "arch", member.settings});
+  for (size_t i = 0; i < members.size(); ++i) {
+    scratch.write(members[i].name + "/results/summary.json",
+                  fmt::format(R"({{"status": "stable", "critical_value": {}}})", i == 0 ? 0.345 : 0.319));
+    scratch.write(members[i].name + "/post/summary.json", "{}");
+    scratch.write(
+        members[i].name + "/post/answers.json",
+        fmt::format(R"({{"verdict": {{"words": "{}"}}}})", i == 0 ? "It falls, not proven" : "Limit found"));
+  }
+  StudyPage page("Arches", scratch.file("page"));
+  const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+  page.write();
+  EXPECT_NE(text.find("2 runs: it falls, not proven in 1, limit found in 1\n"), std::string::npos) << text;
+  const std::string html = read_text(scratch.file("page/study.html"));
+  EXPECT_NE(html.find("<p class=\"verdict bad\">"), std::string::npos) << html;
+  EXPECT_NE(html.find("<td class=\"text\">It falls, not proven</td>"), std::string::npos) << html;
+  EXPECT_EQ(html.find("t stands"), std::string::npos) << html;
+  EXPECT_NE(read_text(scratch.file("page/figures/sweep.gp")).find("\n0.5 0.345 6 \n0.6 0.319 6 \n"),
+            std::string::npos);
+}
+
 /// A sweep over friction and thickness of four members with a critical value each.
 Table table_of_four() {
   Table table{"sweep", "", {}, {}};
-  for (const char* key : {"member", "joints.friction", "geometry.thickness", "status", "remark",
+  for (const char* key : {"member", "joints.friction", "geometry.thickness", "status", "verdict",
                           "cpu_time_seconds", "critical_value"})
     table.columns.push_back({key, "", ""});
   for (const char* friction : {"0.2", "0.4"})
     for (const char* thickness : {"1", "2"})
       table.rows.push_back({std::string("m"), std::string(friction), std::string(thickness),
-                            std::string(friction[2] == '2' ? "moving" : "stable"), std::string(),
+                            std::string("stable"), std::string(friction[2] == '2' ? "It falls" : "It stands"),
                             3.0 * static_cast<double>(table.rows.size()),
                             10.0 + static_cast<double>(table.rows.size())});
   return table;
 }
 
-// One curve per thickness, named by it; times are no results; stable members have filled points (7), others
-// open ones (6).
+// One curve per thickness, named by it; times are no results; members that stand have filled points (7),
+// others open ones (6).
 TEST(SweepFigure, DrawsResultsOverTheFirstKey) {
   const Figure f = sweep_figure({{"joints.friction", {"0.2", "0.4"}}, {"geometry.thickness", {"1", "2"}}},
                                 table_of_four());
