@@ -278,13 +278,14 @@ std::string certain_sentence(const Evaluation& e) {
   const char* stiffness = thrust_answer(e) || (crack && crack->value != "none")
                               ? ", and the stiffness of the joints, on which thrust and cracks depend"
                               : "";
-  std::string text = fmt::format(
-      "{}. Assumed: {}{}.",
-      proven(s.status) ? fmt::format("Certain: {}forces exist that balance the loads {}", of, how)
-                       : fmt::format("Not certain: {}forces balance the loads to the tolerance, exact "
-                                     "ones were not found",
-                                     of),
-      assumptions(e), stiffness);
+  // That a motion came to rest proves no equilibrium.
+  const std::string forces =
+      e.last.frame.role == FrameRole::step ? how_sure_of_motion(e)
+      : proven(s.status)
+          ? fmt::format("Certain: {}forces exist that balance the loads {}.", of, how)
+          : fmt::format(
+                "Not certain: {}forces balance the loads to the tolerance, exact ones were not found.", of);
+  std::string text = fmt::format("{} Assumed: {}{}.", forces, assumptions(e), stiffness);
   if (!s.forces_unique.value) text += " " + to_sentence(s.forces_unique);
   return text;
 }

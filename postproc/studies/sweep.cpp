@@ -15,6 +15,7 @@
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"
 #include "postproc/studies/sweep_figure.hpp"
+#include "postproc/tables/run_files.hpp"
 
 namespace cupola {
 namespace {
@@ -197,19 +198,27 @@ std::string banner(const std::vector<SweptKey>& sweep, const Table& table, const
   return verdict_html(fmt::format("It stands in {} of {}", standing, runs), where, all);
 }
 
+/// How many verdicts are proven. That of a motion holds of the history that was followed.
+int proven_verdicts(const Table& table, const std::vector<StudyRun>& members,
+                    const std::string& runs_folder) {
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  int count = 0;
+  for (size_t i = 0; i < statuses.size(); ++i)
+    if (statuses[i] == to_string(Status::stable) || statuses[i] == to_string(Status::moving))
+      count += !RunFiles(runs_folder + "/" + members[i].name).number_if_any("results.max_speed_m_per_s");
+  return count;
+}
+
 /// What is certain of the verdicts, and what all runs assume; "" for limits, each of which has a bracket of
-/// its own.
-std::string certain_of_sweep(const std::vector<SweptKey>& sweep, const Table& table) {
+/// its own. `proven`: number of verdicts.
+std::string certain_of_sweep(const std::vector<SweptKey>& sweep, const Table& table, int proven) {
   for (const std::string& critical : texts_of(table, "critical_value"))
     if (!critical.empty()) return "";
-  const std::vector<std::string> statuses = texts_of(table, "status");
-  const auto certain = std::ranges::count_if(statuses, [](const std::string& status) {
-    return status == to_string(Status::stable) || status == to_string(Status::moving);
-  });
-  const std::string of = fmt::format("{} of {}", certain, counted(statuses.size(), "run"));
+  const std::string of = proven == 0 ? "no verdict"
+                                     : fmt::format("the verdict of {} of {}, which is proven", proven,
+                                                   counted(table.rows.size(), "run"));
   return fmt::format(
-      "Certain: the verdict of {}, which is proven. Not known: where between two values of {} the verdict "
-      "changes. "
+      "Certain: {}. Not known: where between two values of {} the verdict changes. "
       "Assumed: what the runs share, and the stiffness of the joints, on which thrust and cracks depend.",
       of, sweep.front().key);
 }
@@ -223,7 +232,8 @@ std::string add_sweep(const std::vector<SweptKey>& sweep, const std::vector<Stud
   const Table table = sweep_table(keys, members, runs_folder);
   const std::string governs = governing_member(keys, table, more_is_safer(members, runs_folder));
   page->add("<div class=\"first\">\n" + banner(sweep, table, governs));
-  if (const std::string certain = certain_of_sweep(sweep, table); !certain.empty())
+  const int proven = proven_verdicts(table, members, runs_folder);
+  if (const std::string certain = certain_of_sweep(sweep, table, proven); !certain.empty())
     page->add("<p class=\"certain\">" + html_text(certain) + "</p>\n");
   page->add("</div>\n");
   if (const Figure figure = sweep_figure(sweep, table); !figure.commands.empty()) page->add_figures({figure});

@@ -108,6 +108,16 @@ TEST(Reasons, AMotionThatGoesOnHasNotFallen) {
   EXPECT_EQ(verdict_words(e).words, "It falls");
 }
 
+// Only statics prove that forces exist.
+TEST(Reasons, AMotionThatCameToRestProvesNoEquilibrium) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  EXPECT_TRUE(certain_sentence(e).starts_with("Certain: forces exist")) << certain_sentence(e);
+  e.summary.analysis = AnalysisType::dynamic;
+  e.last.frame.role = FrameRole::step;
+  EXPECT_TRUE(certain_sentence(e).starts_with("Certain: nothing beyond the motion computed. "))
+      << certain_sentence(e);
+}
+
 // 12 kN of fill and forces beside the weight: the verdict names them and their sum.
 TEST(Reasons, NamesTheLoadsBesideTheWeight) {
   EXPECT_EQ(loads_text(test::column_evaluation(0.6, 0.4)), "");

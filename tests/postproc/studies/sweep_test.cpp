@@ -54,6 +54,25 @@ TEST(SweepTable, AMotionThatGoesOnHasNoVerdict) {
   EXPECT_EQ(cell_of(table, 1, "status"), Table::Cell(std::string("moving")));
 }
 
+TEST(SweepTable, AMotionAtRestProvesNoVerdict) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"joints.friction", {"0.5", "0.6"}}};
+  const std::vector<StudyRun> members{{"a", "dome", {"joints.friction=0.5"}},
+                                      {"b", "dome", {"joints.friction=0.6"}}};
+  scratch.write("a/results/summary.json", R"({"status": "stable", "max_speed_m_per_s": 1e-6})");
+  for (const bool motion : {true, false}) {
+    scratch.write("b/results/summary.json",
+                  motion ? R"({"status": "stable", "max_speed_m_per_s": 1e-6})" : R"({"status": "stable"})");
+    StudyPage page("Domes", scratch.file("page"));
+    add_sweep(sweep, members, scratch.folder(), &page);
+    page.write();
+    EXPECT_NE(read_text(scratch.file("page/study.html"))
+                  .find(motion ? "Certain: no verdict. Not known"
+                               : "Certain: the verdict of 1 of 2 runs, which is proven."),
+              std::string::npos);
+  }
+}
+
 // Thrust, margin, crack and critical value, each with its unit; failed members in an amber banner, no link to
 // a report that does not exist, and the table for LaTeX.
 TEST(SweepTable, HasTheResultsOfTheMembers) {
