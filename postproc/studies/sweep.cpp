@@ -150,6 +150,7 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
   for (const std::string& critical : texts_of(table, "critical_value"))
     if (!critical.empty()) return "";
   const std::vector<std::string> values = texts_of(table, sweep.front().key);
+  const std::vector<std::string> statuses = texts_of(table, "status");
   const std::vector<int> falls = falls_of(table);
   std::vector<std::pair<double, size_t>> order;
   for (size_t i = 0; i < values.size(); ++i) {
@@ -161,7 +162,10 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
   };
   std::vector<Stretch> stretches;
   for (const auto& [number, i] : order) {
-    const std::string verdict = falls[i] == 0 ? "stands" : falls[i] == 1 ? "falls" : "is undecided";
+    const std::string verdict = falls[i] == 0              ? "stands"
+                                : falls[i] == 1            ? "falls"
+                                : statuses[i] == "missing" ? "was not run"
+                                                           : "is undecided";
     if (stretches.empty() || stretches.back().verdict != verdict)
       stretches.push_back({verdict, values[i], values[i]});
     stretches.back().last = values[i];
@@ -173,7 +177,8 @@ std::string where_it_stands(const std::vector<SweptKey>& sweep, const Table& tab
                         text.empty() ? sweep.front().key + " " : "", s.first,
                         s.first == s.last ? "" : " to " + s.last);
   text += ".";
-  if (stretches.size() == 2)
+  const auto decided = [](const Stretch& s) { return s.verdict == "stands" || s.verdict == "falls"; };
+  if (stretches.size() == 2 && std::ranges::all_of(stretches, decided))
     text += fmt::format(" The limit lies between {} and {}.", stretches[0].last, stretches[1].first);
   return text;
 }

@@ -133,6 +133,28 @@ TEST(SweepTable, IsRedWhereMembersFall) {
   }
 }
 
+// A limit lies between a run that falls and one that stands, not beside one that was not made or decided.
+TEST(SweepTable, NamesALimitOnlyBetweenVerdicts) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"joints.friction", {"0.1", "0.2"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "dome"))
+    members.push_back({member.name, "dome", member.settings});
+  scratch.write(members[1].name + "/results/summary.json", R"({"status": "stable"})");
+  const auto expect = [&](const std::string& sentence) {
+    StudyPage page("Domes", scratch.file("page"));
+    add_sweep(sweep, members, scratch.folder(), &page);
+    page.write();
+    const std::string html = read_text(scratch.file("page/study.html"));
+    EXPECT_NE(html.find(sentence + "</small>"), std::string::npos) << html;
+  };
+  expect("It was not run at joints.friction 0.1, it stands at 0.2.");
+  scratch.write(members[0].name + "/results/summary.json", R"({"status": "unconverged"})");
+  expect("It is undecided at joints.friction 0.1, it stands at 0.2.");
+  scratch.write(members[0].name + "/results/summary.json", R"({"status": "moving"})");
+  expect("It falls at joints.friction 0.1, it stands at 0.2. The limit lies between 0.1 and 0.2.");
+}
+
 // An axle at three places: the least factor governs, and the page begins with it. Of frictions the greatest
 // does, by the least margin.
 TEST(SweepTable, BeginsWithTheMemberThatGoverns) {
