@@ -122,6 +122,7 @@ std::string throughout(const char* verb, const std::vector<size_t>& rows,
 }  // namespace
 
 std::string governing_member(const std::vector<std::string>& keys, const Table& table, bool more_is_safer) {
+  if (std::ranges::count(table.columns, "critical_parameter", &Table::Column::key) > 0) return "";
   const size_t critical = table.column_named("critical_value"), margin = table.column_named("margin_factor");
   const size_t by = row_at_the_end(table, margin, true) ? margin : critical;
   const bool least_governs = by == margin || more_is_safer;

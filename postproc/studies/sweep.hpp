@@ -31,7 +31,7 @@ bool more_is_safer(const std::vector<StudyRun>& members, const std::string& runs
 /// The member of a table of limits that governs, with its critical value and the values of its keys, and the
 /// one at the other end. Members that fall throughout their bracket come first, then the least margin, or
 /// the least safe critical value where the case has no value to compare; last those that stand throughout. ""
-/// without critical values.
+/// without critical values, and where they are values of several parameters.
 std::string governing_member(const std::vector<std::string>& keys, const Table& sweep_table,
                              bool more_is_safer);
 

@@ -37,15 +37,29 @@ Table::Cell result_of(RunFiles& run, const std::string& key) {
   return number_or_empty(run, (of_post ? "post." : "results.") + key);
 }
 
-/// The unit of the critical values; "" if they have none, or no member has one.
-std::string unit_of_limit(const std::vector<StudyRun>& members, const std::string& runs_folder) {
-  for (const StudyRun& member : members) {
+/// What the critical value of each member is one of; "" for those without one.
+std::vector<std::string> limit_parameters(const std::vector<StudyRun>& members,
+                                          const std::string& runs_folder) {
+  std::vector<std::string> parameters(members.size());
+  for (std::size_t i = 0; i < members.size(); ++i) {
     try {
-      return limit_unit(RunFiles(runs_folder + "/" + member.name).text_of_results("critical_parameter"));
+      parameters[i] = RunFiles(runs_folder + "/" + members[i].name).text_of_results("critical_parameter");
     } catch (const InputError&) {  // not finished, or no limit analysis
     }
   }
-  return "";
+  return parameters;
+}
+
+/// Gives the critical values their unit or, of several parameters, a column that says which.
+void add_limit_parameters(const std::vector<std::string>& parameters, Table* t) {
+  std::set<std::string> found(parameters.begin(), parameters.end());
+  found.erase("");
+  const auto critical = static_cast<std::ptrdiff_t>(t->column_named("critical_value"));
+  if (found.size() == 1) t->columns[critical].unit = limit_unit(*found.begin());
+  if (found.size() < 2) return;
+  t->columns.insert(t->columns.begin() + critical, {"critical_parameter", "", "critical value of"});
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    t->rows[i].insert(t->rows[i].begin() + critical, parameters[i]);
 }
 
 /// How a run ended: its status, or that a motion has not come to rest, which is no verdict.
@@ -151,8 +165,7 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
   t.columns.push_back({"verdict", "", "verdict on the case"});
   t.columns.push_back({"remark", "", "how far a missing member got"});
   const std::vector<Table::Column> numbers = {
-      {"critical_value", unit_of_limit(members, runs_folder),
-       "critical value of a limit analysis: middle of the bracket"},
+      {"critical_value", "", "critical value of a limit analysis: middle of the bracket"},
       {"margin_factor", "", "margin: factor of the case from its limit"},
       {"thrust_N", "N", "outward thrust"},
       {"widest_crack_m", "m", "widest crack"},
@@ -181,6 +194,7 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
     CUPOLA_ASSERT(row.size() == t.columns.size());
     t.rows.push_back(std::move(row));
   }
+  add_limit_parameters(limit_parameters(members, runs_folder), &t);
   add_strength_columns(members, runs_folder, &t);
   add_range_columns(ranges, &t);
   return t;

@@ -309,6 +309,26 @@ TEST(SweepTable, TheVerdictOfALimitIsThatOnItsCase) {
             std::string::npos);
 }
 
+// A factor on the load and a coefficient of friction share no unit, and neither governs.
+TEST(SweepTable, CriticalValuesOfSeveralParametersAreNotCompared) {
+  const ScratchFolder scratch;
+  const std::vector<SweptKey> sweep = {{"analysis.limit.parameter", {"load", "friction"}}};
+  std::vector<StudyRun> members;
+  for (const SweepMember& member : members_of(sweep, "arch"))
+    members.push_back({member.name, "arch", member.settings});
+  for (size_t i = 0; i < members.size(); ++i)
+    scratch.write(members[i].name + "/results/summary.json",
+                  fmt::format(R"({{"status": "stable", "critical_value": {}, "critical_parameter": "{}"}})",
+                              i == 0 ? 3.995 : 0.3591, sweep[0].values[i]));
+  const Table table = sweep_table({sweep[0].key}, members, scratch.folder());
+  EXPECT_EQ(table.columns[table.column_named("critical_value")].unit, "");
+  EXPECT_EQ(cell_of(table, 1, "critical_parameter"), Table::Cell(std::string("friction")));
+  EXPECT_EQ(cell_of(table, 1, "critical_value"), Table::Cell(0.3591));
+  StudyPage page("Arch", scratch.file("page"));
+  const std::string text = add_sweep(sweep, members, scratch.folder(), &page);
+  EXPECT_EQ(text.find("What governs"), std::string::npos) << text;
+}
+
 /// A sweep over friction and thickness of four members with a critical value each.
 Table table_of_four() {
   Table table{"sweep", "", {}, {}};
