@@ -30,6 +30,7 @@ std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
     if (sheets[i].num_rings == 0 || sheets[i].thrust_lines == Sheet::ThrustLines::none) continue;
     const int first = e.assembly.stack_of(sheets[i].first_ring).first;
     if (!pushing.empty() && e.assembly.stack_of(pushing.back()->first_ring).first == first) continue;
+    if (!e.rings.empty() && base_of(e, sheets[i]).blocks == 0) continue;
     pushing.push_back(&sheets[i]);
   }
   return pushing;
@@ -68,8 +69,7 @@ std::optional<double> outward_thrust(const Evaluation& e) {
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
   if (pushing.empty()) return sum_over_supports(e);
   if (e.rings.empty()) return std::nullopt;
-  const RingSum& base = base_of(e, *pushing.front());
-  return base.blocks > 0 ? std::optional(thrusts_of(e, *pushing.front()).front().force) : std::nullopt;
+  return thrusts_of(e, *pushing.front()).front().force;
 }
 
 }  // namespace cupola

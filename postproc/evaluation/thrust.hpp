@@ -7,7 +7,8 @@
 
 namespace cupola {
 
-/// Of each stack the uppermost sheet that has an outside, as walls have not; the last stack first.
+/// Of each stack the uppermost sheet that has an outside, as walls have not; the last stack first. Without
+/// stacks of which no block of the lowest course is at rest: they have fallen, or are not laid.
 std::vector<const Sheet*> pushing_sheets(const Evaluation& evaluation);
 
 /// The cut under the lowest course of the stack of a sheet.

@@ -279,7 +279,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
   if (pushing.empty()) return thrust_without_courses(e, *found);
   const Sheet& shell = *pushing.front();
-  const bool alone = pushing.size() == 1;
+  const bool alone = pushing.size() == 1 && e.summary.parts.empty();  // of which others may have fallen
   const std::vector<Thrust> thrusts = thrusts_of(e, shell);
   const std::vector<Reaction> supports = thrusting(e, shell, thrusts.front());
   std::vector<std::string> details;

@@ -103,6 +103,16 @@ TEST(Thrust, OfBothSidesIsThatOfTheSpringings) {
   EXPECT_EQ(outward_thrust(e), 10.0);
 }
 
+TEST(Thrust, IsThatOfWhatStands) {
+  Evaluation e = half_arches();
+  e.assembly.blocks.push_back(in_course(6));
+  e.assembly.num_rings = 7;
+  e.assembly.sheets.push_back(
+      {.name = "fallen", .first_ring = 6, .num_rings = 1, .thrust_lines = Sheet::ThrustLines::one});
+  e.rings.resize(7);
+  EXPECT_EQ(outward_thrust(e), 10.0);
+}
+
 // Heads that meet in a mitre lean on each other: neither member stands on the other.
 TEST(Thrust, CountsNoMitre) {
   Evaluation e = half_arches();
