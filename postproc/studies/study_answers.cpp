@@ -174,7 +174,7 @@ std::string add_answers(const StudyAnswers& answers, const std::vector<NotComput
       "A factor says how far the case is from the limit: 2 if half the friction, half the extent of the "
       "joints or twice the load is "
       "still borne. Margins without a factor follow: the case has no value to compare them with, or the "
-      "structure falls at every value.");
+      "structure stands, or falls, at every value.");
   std::vector<NotComputed> missing = not_computed;
   for (NotComputed& one : missing_answers(answers, runs_folder, runs)) missing.push_back(std::move(one));
   if (!missing.empty()) page->add("<h2>Not computed</h2>\n<ul>\n");

@@ -106,6 +106,7 @@ TEST(StudyAnswers, SortMarginsAndSayWhatWasNotComputed) {
                none = page.text.find("\nnone");
   EXPECT_LT(small, large) << page.text;
   EXPECT_LT(large, none) << page.text;
+  EXPECT_NE(page.html.find("or the structure stands, or falls, at every value."), std::string::npos);
   EXPECT_NE(page.text.find("Least margin: small: factor 1.5"), std::string::npos) << page.text;
   EXPECT_NE(page.text.find("not computed: lantern: the case has no loads.lantern\n"), std::string::npos)
       << page.text;
