@@ -10,6 +10,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/model/joint_rule.hpp"
+#include "solver/analysis/statics/hung_blocks.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/conic/motion_proof.hpp"
 #include "solver/dynamics/energy_account.hpp"
@@ -115,10 +116,16 @@ bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
 /// The scene of the next static solve: contacts at `from` and what the joints remember.
 void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
   start_ = from.state;
-  contacts_ =
-      detector_.num_detections() == 0 ? contacts_at_rest(model_, &detector_) : detector_.update(start_.poses);
-  if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
-  memories_ = match_memories(from.memories, contacts_.points);
+  const auto detect = [&] {
+    contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(model_, &detector_)
+                                                : detector_.update(start_.poses);
+    if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
+    memories_ = match_memories(from.memories, contacts_.points);
+  };
+  detect();
+  // The time that a control finds is not known yet.
+  const double loads_at = start_.time + (options_.control ? 0.0 : time_advance);
+  if (let_hang(model_, contacts_, memories_, loads_at, &start_)) detect();
   options_.time_advance = time_advance;
 }
 

@@ -14,12 +14,13 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
 /// damage.
 ///
 /// Each solve balances the forces in the geometry in which it starts, so that an equilibrium is off by the
-/// displacement of its step. With PathGeometry::end, and in steps by time that move a block by more than a
-/// hundredth of the smallest, more solves follow, each from where the last one ended and at the same time,
-/// until one moves no block by more than 1e-8 of the smallest, or 1e-5 where the imbalance that a solve leaves
-/// explains it: forces and geometry then belong to each other. Where these solves move the blocks further than
-/// the step itself moved blocks and supports, the structure may fall. With PathGeometry::start a long step
-/// that does not settle stays as it was, unless a motion is proven.
+/// displacement of its step; what hangs on ties hangs at rest there (hung_blocks.hpp). With
+/// PathGeometry::end, and in steps by time that move a block by more than a hundredth of the smallest, more
+/// solves follow, each from where the last one ended and at the same time, until one moves no block by more
+/// than 1e-8 of the smallest, or 1e-5 where the imbalance that a solve leaves explains it: forces and
+/// geometry then belong to each other. Where these solves move the blocks further than the step itself moved
+/// blocks and supports, the structure may fall. With PathGeometry::start a long step that does not settle
+/// stays as it was, unless a motion is proven.
 class EquilibriumPath {
  public:
   EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options,

@@ -1,5 +1,6 @@
 #include "solver/dynamics/ties.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -216,6 +217,36 @@ TEST(YieldingTie, KeepsItsElongationAlongAPath) {
     const double p = (P - 4.0 * Y) / (2.0 * k), down = (P1 + 2.0 * k * p) / (4.0 * k);
     EXPECT_NEAR(solution.forces.ties[0] / (k * down), 1.0, 1e-6);
     EXPECT_NEAR(solution.forces.ties[1] / (k * (down - p)), 1.0, 1e-6);
+  }
+}
+
+// The ceiling moves aside by d while a wind grows to H: the cube, of weight W, hangs on below, in the line of
+// H and W through its centroid, at tan(lean) = H / W. Without the stiffness T / length of the swing it was
+// proven to fall.
+TEST(Tie, WhatHangsOnItFollowsAlongAPath) {
+  const double k = 1e6, W = 1000.0 * kG, H = 0.2 * W, d = 0.3;
+  Case scene = make_case(0.4, 1e-8, 1.0);
+  const TableInTime growing{"", {0.0, 1.0}, {0.0, 1.0}};
+  scene.loads.forces = {{.block = 1, .point = {}, .force = Vec3(H, 0, 0), .time = growing}};
+  SupportMove aside;
+  aside.displacement = Vec3(d, 0, 0);
+  aside.time = growing;
+  scene.supports.moves = {aside};
+  for (const bool rod : {false, true}) {  // which also pushes
+    Assembly assembly = hanging_cube();
+    const PairTie tie = vertical_tie(k);
+    if (rod) assembly.ties = {{0, 1, *tie.point_a, *tie.point_b, k, 1.0, true, INFINITY, -1}};
+    scene.ties.pairs = rod ? std::vector<PairTie>{} : std::vector{tie};
+    const Model model = make_model(scene, assembly);
+    EquilibriumPath path(model, {}, {.tolerance = 1e-10}, PathGeometry::end);
+    for (const double time : {0.0, 0.5, 1.0}) {
+      const StaticSolution solution = path.advance(time);
+      ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << time << ": " << solution.message;
+      const double lean = std::atan(time * H / W), T = std::hypot(W, time * H);
+      // To the elongation that the last solve adds, 1e-8 of the cube, and the tolerance.
+      EXPECT_NEAR(solution.forces.ties[0] / T, 1.0, 1e-7);
+      EXPECT_NEAR(path.state().poses[1].p_WB.x(), time * d + (1.5 + T / k) * std::sin(lean), 1e-7);
+    }
   }
 }
 
