@@ -2,14 +2,15 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
+#include "postproc/mechanics/shell.hpp"
 #include "postproc/mechanics/stage_blocks.hpp"
 
 namespace cupola {
 
 Vec3 force_beyond(const PlaneCut& cut, const Assembly& assembly, const JointWrench& joint) {
-  const int b = joint.block_b;
-  const bool b_beyond = !assembly.blocks[b].fixed && cut.is_beyond(assembly.blocks[b].centroid);
-  return wrench_on(joint, b_beyond ? b : joint.block_a).force;
+  const int a = joint.block_a, b = joint.block_b;
+  const Vec3 towards_b = assembly.blocks[b].centroid - assembly.blocks[a].centroid;
+  return wrench_on(joint, cut.normal.dot(towards_b) > 0.0 ? b : a).force;
 }
 
 PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointWrenches& joints,
@@ -21,10 +22,13 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
   CUPOLA_ASSERT(plane.normal.norm() > 0.0);
   cut.normal = plane.normal.normalized();
 
+  constexpr double kRounding = 1e-9;  // of the model: far above that of centroids, far below any block
+  const double on_plane = kRounding * model_size(assembly);
   const auto is_free = [&](int block) { return takes_part(assembly, block, left_out); };
   std::vector<bool> beyond(assembly.blocks.size());
   for (size_t b = 0; b < beyond.size(); ++b) {
-    beyond[b] = is_free(static_cast<int>(b)) && cut.is_beyond(assembly.blocks[b].centroid);
+    beyond[b] =
+        is_free(static_cast<int>(b)) && cut.normal.dot(assembly.blocks[b].centroid - cut.point) > on_plane;
     if (beyond[b]) cut.load_beyond += assembly.blocks[b].mass * gravity;
   }
   for (const PointForce& load : loads)

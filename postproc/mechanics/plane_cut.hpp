@@ -12,7 +12,8 @@ namespace cupola {
 /// A plane through the model and the forces that its two sides exert on each other.
 ///
 /// A block counts for the side on which its centroid lies, so the cut follows the joints. The blocks "beyond"
-/// are the free blocks on the side to which the normal points; those that a stage leaves out are supports.
+/// are the free blocks on the side to which the normal points, but for those whose centroid lies on the plane;
+/// those that a stage leaves out are supports.
 struct PlaneCut {
   std::string name;
   Vec3 point = Vec3::Zero();          ///< m
@@ -24,8 +25,6 @@ struct PlaneCut {
   Vec3 from_supports = Vec3::Zero();  ///< N, of the supports on the blocks beyond
   Vec3 load_beyond = Vec3::Zero();    ///< N, weight of the blocks beyond and loads on them
   double relative_difference = 0.0;   ///< |across + from_ties + from_supports + load_beyond| / |load_beyond|
-
-  bool is_beyond(const Vec3& x) const { return normal.dot(x - point) > 0.0; }
 };
 
 /// Without the polygons. `left_out`: as in ring_sums().

@@ -66,6 +66,16 @@ TEST(PlaneCut, ReversingTheNormalReversesTheForces) {
   EXPECT_LT(b.relative_difference, 1e-14);
 }
 
+// Rounding, as of the corners of a dome, put one block of a symmetric pair beyond and the other not.
+TEST(PlaneCut, ABlockWhoseCentroidIsOnThePlaneIsBeyondNeitherSide) {
+  for (const double rounding : {-1e-15, 0.0, 1e-15}) {
+    const Evaluation e = column_with(
+        {{"up", {0, 0, 0.75 + rounding}, {0, 0, 1}}, {"down", {0, 0, 0.75 + rounding}, {0, 0, -1}}});
+    EXPECT_NEAR(e.planes[0].load_beyond.z() / -kBlockWeight, 1.0, 1e-12) << "the upper block";
+    EXPECT_NEAR(e.planes[1].load_beyond.z() / -kBlockWeight, 1.0, 1e-12) << "the lower block";
+  }
+}
+
 TEST(PlaneCut, AppearsInTablesFiguresAndFiles) {
   const Evaluation e =
       column_with({{"level", {0, 0, 0.9}, {0, 0, 1}}, {"upright", {0.6, 0.4, 0}, {1, 0, 0}}});
