@@ -218,10 +218,10 @@ std::vector<PointForce> loads_at(const Evaluation& e, double time) {
   return loads;
 }
 
-/// Of the joints of an equilibrium of some parts: blocks of the others.
-std::vector<bool> beside_standing_parts(const Evaluation& e, const JointWrenches& joints) {
+/// Of an equilibrium of some parts: blocks of the others.
+std::vector<bool> beside_standing_parts(const Evaluation& e, const FrameEvaluation& shown) {
   std::vector<bool> left_out(e.assembly.blocks.size(), true);
-  const std::vector<int> part_of = connected_parts(e.assembly, joints);
+  const std::vector<int> part_of = connected_parts(e.assembly, shown.joints, shown.frame.ties);
   for (const PartVerdict& part : e.summary.parts)
     for (size_t b = 0; b < left_out.size() && stands(part.status); ++b)
       if (part_of[b] == part_of[part.first_block]) left_out[b] = false;
@@ -231,7 +231,7 @@ std::vector<bool> beside_standing_parts(const Evaluation& e, const JointWrenches
 /// Per block, true if a frame leaves it out; empty if it has all.
 std::vector<bool> left_out_of(const Evaluation& e, const FrameEvaluation& shown) {
   if (shown.frame.role == FrameRole::equilibrium && !e.summary.parts.empty())
-    return beside_standing_parts(e, shown.joints);
+    return beside_standing_parts(e, shown);
   return blocks_left_out(e.assembly, shown.frame, e.scene.analysis.staged.hold_below);
 }
 
@@ -383,12 +383,12 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
   if (at_rest(e)) e.cracks = shell_cracks(e.assembly, e.last.frame.contacts, e.last.joints, e.axes);
   const TieTable& ties = e.last.frame.ties;
-  const int restraints = 2 * static_cast<int>(scene.supports.restraints.size());  // come last, both signs
-  e.reactions = support_reactions(e.assembly, e.last.joints, e.shell, ties, ties.size() - restraints);
+  e.reactions = support_reactions(e.assembly, e.last.joints, e.shell, ties,
+                                  num_ties_of(ties, scene.supports.restraints));
   if (e.summary.critical &&
       e.summary.critical->parameter == "joint_extent")  // joints are shorter than supports
     for (Reaction& r : e.reactions) r.length = std::numeric_limits<double>::quiet_NaN();
-  e.parts = connected_parts(e.assembly, e.last.joints);
+  e.parts = connected_parts(e.assembly, e.last.joints, ties);
   find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.last.poses);

@@ -16,6 +16,13 @@ Vec3 tie_force_on_b(const TieTable& ties, int i) {
   return (ties.strut[i] != 0 ? -ties.force[i] : ties.force[i]) * towards_a;
 }
 
+int num_ties_of(const TieTable& ties, const std::vector<Restraint>& restraints) {
+  int num = ties.size();
+  for (size_t i = restraints.size(); i-- > 0;)
+    if (num >= 2 && ties.block_b[num - 1] == restraints[i].block && ties.strut[num - 1] != 0) num -= 2;
+  return num;
+}
+
 std::vector<ChainForces> chain_forces(const std::vector<BuiltChain>& chains, const TieTable& ties) {
   std::vector<ChainForces> all;
   std::vector<double> length(chains.size(), 0.0);

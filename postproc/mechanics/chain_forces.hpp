@@ -3,12 +3,17 @@
 #include <string>
 #include <vector>
 
+#include "assembly/case/case.hpp"
 #include "assembly/model/results.hpp"
 
 namespace cupola {
 
 /// N, of tie i on its block b: towards a in tension, away from it in a strut.
 Vec3 tie_force_on_b(const TieTable& ties, int i);
+
+/// Number of the ties before those of restraints, which come last, both signs of each, but not those of blocks
+/// that a frame leaves out.
+int num_ties_of(const TieTable& ties, const std::vector<Restraint>& restraints);
 
 /// Tension of the bars of one chain at one instant.
 struct ChainForces {

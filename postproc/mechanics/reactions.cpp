@@ -128,13 +128,17 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
   return reactions;
 }
 
-std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& joints) {
+std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& joints,
+                                 const TieTable& ties) {
   const int num_blocks = static_cast<int>(assembly.blocks.size());
   DisjointSets connected(assembly.blocks.size());
   const auto fixed = [&assembly](int b) { return assembly.blocks[b].fixed; };
+  const auto join = [&](int a, int b) {
+    if (!fixed(a) && !fixed(b)) connected.join(a, b);
+  };
   for (const JointWrench& joint : joints.wrenches)
-    if (joint.touches && !fixed(joint.block_a) && !fixed(joint.block_b))
-      connected.join(joint.block_a, joint.block_b);
+    if (joint.touches) join(joint.block_a, joint.block_b);
+  for (int i = 0; i < ties.size(); ++i) join(ties.block_a[i], ties.block_b[i]);
   std::map<int, int> sizes;
   for (int b = 0; b < num_blocks; ++b)
     if (!fixed(b)) ++sizes[connected.root(b)];

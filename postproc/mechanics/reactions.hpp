@@ -21,8 +21,8 @@ struct Reaction {
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
                                         const Shell& shell, const TieTable& ties = {}, int num_ties = 0);
 
-/// Per block, the part of the structure to which it belongs: free blocks that joints connect without passing
-/// a support. The largest part is 0; -1 for supports.
-std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& joints);
+/// Per block, the part of the structure to which it belongs: free blocks that joints and ties connect without
+/// passing a support. The largest part is 0; -1 for supports.
+std::vector<int> connected_parts(const Assembly& assembly, const JointWrenches& joints, const TieTable& ties);
 
 }  // namespace cupola

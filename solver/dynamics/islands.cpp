@@ -31,16 +31,23 @@ ScenePart part_of(const Model& model, const State& state, const ContactSet& cont
     part.memories.ids.push_back(memories.ids[i]);
     part.memories.values.push_back(memories.of(i));
   }
+  part.model.ties.clear();
+  for (size_t k = 0; k < model.ties.size(); ++k) {
+    if (!in_part(model.ties[k].block_a) && !in_part(model.ties[k].block_b)) continue;
+    part.model.ties.push_back(model.ties[k]);
+    if (!memories.ties.empty()) part.memories.ties.push_back(memories.ties[k]);
+  }
   return part;
 }
 
 std::vector<int> islands_of(const Model& model, const ContactSet& contacts) {
   DisjointSets islands(model.num_free());
-  for (const Contact& contact : contacts.points) {
-    const int a = model.free_index[contact.block_a], b = model.free_index[contact.block_b];
-    if (a == ContactProblem::kFixed || b == ContactProblem::kFixed) continue;
-    islands.join(a, b);
-  }
+  const auto join = [&](int block_a, int block_b) {
+    const int a = model.free_index[block_a], b = model.free_index[block_b];
+    if (a != ContactProblem::kFixed && b != ContactProblem::kFixed) islands.join(a, b);
+  };
+  for (const Contact& contact : contacts.points) join(contact.block_a, contact.block_b);
+  for (const Tie& tie : model.ties) join(tie.block_a, tie.block_b);
   std::vector<int> island_of(model.num_free());
   for (int i = 0; i < model.num_free(); ++i) island_of[i] = islands.root(i);
   return island_of;

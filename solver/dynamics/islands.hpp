@@ -9,8 +9,8 @@
 
 namespace cupola {
 
-/// Island of each free block (num_free): a set of free blocks connected by contacts, whether closed or open
-/// within the margin. An island is numbered by its first block.
+/// Island of each free block (num_free): a set of free blocks connected by ties, also slack ones, and by
+/// contacts, whether closed or open within the margin. An island is numbered by its first block.
 std::vector<int> islands_of(const Model& model, const ContactSet& contacts);
 
 /// Which free blocks sleep. An island falls asleep when all its blocks have been slower than Sleep::speed for

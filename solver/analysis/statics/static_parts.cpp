@@ -65,7 +65,6 @@ Status status_of(const ScenePart& part, const StaticSolution& solution, const St
 
 std::optional<StaticParts> solve_by_parts(const Model& model, const State& start, const ContactSet& contacts,
                                           const ContactMemories& memories, const StaticOptions& options) {
-  if (!model.ties.empty()) return std::nullopt;
   std::vector<OnePart> parts = parts_of(model, islands_of(model, contacts));
   if (parts.size() < 2 || parts.size() > kMostParts) return std::nullopt;
   StaticParts out;

@@ -9,8 +9,8 @@
 
 namespace cupola {
 
-/// The verdicts of the parts of a structure that no contact connects, so that a loose stone does not decide
-/// that of the rest.
+/// The verdicts of the parts of a structure that no contact or tie connects, so that a loose stone does not
+/// decide that of the rest.
 struct StaticParts {
   std::vector<PartVerdict> verdicts;  ///< the largest part first
   std::vector<char> stands;           ///< 1 or 0 (num_free)

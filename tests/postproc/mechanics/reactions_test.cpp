@@ -124,5 +124,11 @@ TEST(Chains, YieldWhereTheyPullWithTheirYieldForce) {
   EXPECT_EQ(e.chains[0].yielding, 0);
 }
 
+TEST(Reactions, TiesConnectPartsAsJointsDo) {
+  const Assembly a = test::column(3);
+  EXPECT_EQ(connected_parts(a, {}, {}), (std::vector{-1, 0, 1, 2}));
+  EXPECT_EQ(connected_parts(a, {}, test::column_with_a_tie(a).ties), (std::vector{-1, 0, 1, 0}));
+}
+
 }  // namespace
 }  // namespace cupola::reactions_test

@@ -264,5 +264,35 @@ TEST(ElasticSupports, SinkAndTurnAFootingByItsClosedForm) {
   EXPECT_NEAR(d.x(), kC * kH / (kB * kL) + turn * 0.5 * kZ, 1e-3 * turn);
 }
 
+// Two cubes that a tie connects stand; one beside them, held from the side only, falls.
+TEST(Restraint, PartsThatFallLeaveTheirRestraintsOut) {
+  const Vec3 cube(1.0, 1.0, 1.0);
+  const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 4, 1}, .fixed = true},
+                                                 {.center = {-5, 0, 0.5}, .size = cube},
+                                                 {.center = {0, 0, 0.5}, .size = cube},
+                                                 {.center = {5, 0, 1.5}, .size = cube}});
+  Case scene = testing::make_case(0.7, 1e-10, 0.01);
+  scene.supports.restraints = {{BlockRef{3}, Vec3(5, 0, 1.5), Vec3::UnitX()}};
+  PairTie tie;
+  tie.block_a = 1;
+  tie.block_b = 2;
+  tie.stiffness = 1e6;
+  tie.prestress = 100.0;  // N, which friction bears
+  scene.ties.pairs = {tie};
+  std::vector<Frame> frames;
+  AnalysisSinks sinks;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  const Summary summary = run_static(scene, assembly, sinks);
+  EXPECT_EQ(summary.status, Status::moving) << summary.message;
+  ASSERT_EQ(summary.parts.size(), 2u) << summary.message;
+  EXPECT_EQ(summary.parts[0].blocks, 2);
+  EXPECT_EQ(summary.parts[0].status, Status::stable);
+  EXPECT_EQ(summary.parts[1].first_block, 3);
+  EXPECT_EQ(summary.parts[1].status, Status::moving);
+  ASSERT_EQ(frames.front().ties.size(), 1) << "that of the equilibrium";
+  // The joints yield by 1e-5 of the elongation of the tie, 0.1 mm.
+  EXPECT_NEAR(frames.front().ties.force[0] / tie.prestress, 1.0, 1e-4);
+}
+
 }  // namespace
 }  // namespace cupola::restraints_test
