@@ -1,5 +1,6 @@
 #include "postproc/report/loads_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -8,6 +9,7 @@
 
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/evaluation/thrust.hpp"
+#include "postproc/mechanics/chain_forces.hpp"
 
 namespace cupola {
 namespace {
@@ -73,6 +75,37 @@ std::string weight_text(const Evaluation& e) {
 std::string loads_text(const Evaluation& e) {
   const std::string vertical = vertical_loads(e), horizontal = horizontal_loads(e);
   return vertical + (vertical.empty() || horizontal.empty() ? "" : "; ") + horizontal;
+}
+
+std::string acting_ties(const Evaluation& e) {
+  const int num_ties = num_ties_of(e.last.frame.ties, e.scene.supports.restraints);
+  const std::vector<double>& force = e.last.frame.ties.force;
+  const auto act = [&](int first, int end) {
+    return std::any_of(force.begin() + first, force.begin() + end,
+                       [&](double f) { return f > kRoundingOfSums * e.summary.weight_N; });
+  };
+  std::vector<const char*> acting;
+  if (act(0, num_ties)) acting.push_back("ties");
+  if (act(num_ties, static_cast<int>(force.size()))) acting.push_back("restraints");
+  return fmt::format("{}", fmt::join(acting, " and "));
+}
+
+std::string carriers_text(const Evaluation& e) {
+  const std::string ties = acting_ties(e);
+  if (ties.empty()) return "joint forces";
+  if (e.last.joints.wrenches.empty()) return ties;
+  return fmt::format("joint forces{} {}", ties.find(" and ") == std::string::npos ? " and" : ",", ties);
+}
+
+std::string assumed_ties(const Evaluation& e) {
+  const TieTable& ties = e.last.frame.ties;
+  const int num_ties = num_ties_of(ties, e.scene.supports.restraints);
+  const bool yield = std::any_of(ties.yield_force.begin(), ties.yield_force.end(),
+                                 [](double force) { return std::isfinite(force); });
+  std::vector<const char*> assumed;
+  if (num_ties > 0) assumed.push_back(yield ? "the ties and their yield forces" : "the ties");
+  if (ties.size() > num_ties) assumed.push_back("the restraints");
+  return fmt::format("{}", fmt::join(assumed, ", "));
 }
 
 std::string direction_of_limit(const LimitSearch& limit) {

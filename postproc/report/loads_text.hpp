@@ -14,6 +14,15 @@ std::string weight_text(const Evaluation& evaluation);
 /// nothing does.
 std::string loads_text(const Evaluation& evaluation);
 
+/// "ties and restraints": which of them carry forces; "" if none does.
+std::string acting_ties(const Evaluation& evaluation);
+
+/// What carries the blocks: "joint forces, ties and restraints".
+std::string carriers_text(const Evaluation& evaluation);
+
+/// What a verdict assumes of them: "the ties and their yield forces, the restraints"; "" without any.
+std::string assumed_ties(const Evaluation& evaluation);
+
 /// "pulled towards +x; other directions are not computed": of the limit of a tilt or an acceleration; else "".
 std::string direction_of_limit(const LimitSearch& limit);
 

@@ -86,18 +86,21 @@ bool shows_the_case(const Evaluation& e) {
   return at_rest(e) && !e.summary.critical && e.summary.ranges.empty() && !is_stage(e.last.frame.role);
 }
 
-/// What carries the blocks.
-const char* carriers(const Evaluation& e) {
-  return !e.last.joints.wrenches.empty()       ? "joint forces"
-         : e.scene.supports.restraints.empty() ? "ties"
-                                               : "ties and restraints";
+/// "by friction and without tension"; with ties "by friction, without tension in the joints, and by the ties".
+std::string balance_text(const Evaluation& e) {
+  const std::string ties = acting_ties(e);
+  if (e.last.joints.wrenches.empty() && !ties.empty()) return "in the " + ties;
+  const char* joints = laws_of(e).have_strength() ? "within the limits of the joints"
+                       : ties.empty()             ? "by friction and without tension"
+                                                  : "by friction, without tension in the joints";
+  return ties.empty() ? joints : fmt::format("{}, and by the {}", joints, ties);
 }
 
 /// Why one equilibrium stands: what carries what, and after which motion.
 std::string carried_text(const Evaluation& e) {
   const std::string loads = loads_text(e);
   const std::string carry =
-      fmt::format("The {} carry the weight of {}, {}{}{}", carriers(e),
+      fmt::format("The {} carry the weight of {}, {}{}{}", carriers_text(e),
                   counted(e.summary.free_blocks, "block"), weight_text(e), loads.empty() ? "" : ", ", loads);
   if (const std::string moved = moved_text(e); !moved.empty())
     return fmt::format("{}, although {}.", carry, moved);
@@ -146,6 +149,8 @@ std::string assumptions(const Evaluation& e) {
   if (laws.have_strength())
     given.emplace_back(e.scene.joints.have_strength() ? "the strength of the joints"
                                                       : "the strength of fresh mortar");
+  if (const std::string ties = assumed_ties(e); !ties.empty()) given.push_back(ties);
+  if (!e.scene.loads.heat.empty()) given.emplace_back("the changes of temperature");
   if (!moved_text(e).empty()) given.push_back("the motion of the supports");
   if (!limits_pressure(e.scene.joints)) given.push_back("no crushing (not checked)");
   return fmt::format("{}", fmt::join(given, ", "));
@@ -272,17 +277,16 @@ std::string certain_sentence(const Evaluation& e) {
                    : !moved_text(e).empty() ? "after the motion of the supports "
                                             : "";
   const std::optional<KeyNumber> crack = crack_answer(e);
-  const std::string how = e.last.joints.wrenches.empty() ? fmt::format("in the {}", carriers(e))
-                          : laws_of(e).have_strength()   ? "within the limits of the joints"
-                                                         : "by friction and without tension";
-  const char* stiffness = thrust_answer(e) || (crack && crack->value != "none")
-                              ? ", and the stiffness of the joints, on which thrust and cracks depend"
-                              : "";
+  const std::string stiffness =
+      thrust_answer(e) || (crack && crack->value != "none")
+          ? fmt::format(", and the stiffness of the joints{}, on which thrust and cracks depend",
+                        e.last.frame.ties.size() > 0 ? " and ties" : "")
+          : "";
   // That a motion came to rest proves no equilibrium.
   const std::string forces =
       e.last.frame.role == FrameRole::step ? how_sure_of_motion(e)
       : proven(s.status)
-          ? fmt::format("Certain: {}forces exist that balance the loads {}.", of, how)
+          ? fmt::format("Certain: {}forces exist that balance the loads {}.", of, balance_text(e))
           : fmt::format(
                 "Not certain: {}forces balance the loads to the tolerance, exact ones were not found.", of);
   std::string text = fmt::format("{} Assumed: {}{}.", forces, assumptions(e), stiffness);

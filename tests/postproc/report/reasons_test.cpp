@@ -1,5 +1,7 @@
 // The sentences of the first screen: why it stands or falls, under which loads, and what is certain of it.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "postproc/report/answers.hpp"
@@ -35,14 +37,53 @@ TEST(Reasons, AConstructionAssumesItsFreshMortar) {
   expect("within the limits", "coefficients of friction of 0.2 to 0.6, the strength of fresh mortar, ");
 }
 
+/// The column with a tie.
+Evaluation tied_column() {
+  const Assembly a = test::column(3);
+  return test::evaluated(a, {test::column_with_a_tie(a)}, test::column_summary(a), test::column_case(),
+                         test::fresh_folder("results"));
+}
+
 // A stone that hangs from ties has no joints.
 TEST(Reasons, TiesCarryWhatHasNoJoints) {
-  Evaluation e = test::column_evaluation(0.6, 0.4);
+  Evaluation e = tied_column();
   e.last.joints.wrenches.clear();
   EXPECT_TRUE(reason_for_verdict(e).starts_with("The ties carry the weight of 3 blocks"))
       << reason_for_verdict(e);
   EXPECT_NE(certain_sentence(e).find("forces exist that balance the loads in the ties. "), std::string::npos)
       << certain_sentence(e);
+}
+
+// What stands by a tie or a prop does not stand by friction alone, and heat changes its forces.
+TEST(Reasons, NamesTiesRestraintsAndHeat) {
+  Evaluation e = tied_column();
+  const auto expect = [&e](const std::string& carriers, const std::string& how, const std::string& assumed) {
+    EXPECT_TRUE(reason_for_verdict(e).starts_with("The joint forces" + carriers + " carry the weight"))
+        << reason_for_verdict(e);
+    const std::string certain = certain_sentence(e);
+    EXPECT_NE(certain.find("balance the loads by friction" + how + ". Assumed: "), std::string::npos)
+        << certain;
+    EXPECT_NE(certain.find("friction of 0.5, " + assumed + "no crushing"), std::string::npos) << certain;
+  };
+  e.scene.joints.friction = 0.5;
+  const std::string by = ", without tension in the joints, and by the ";
+  expect(" and ties", by + "ties", "the ties and their yield forces, ");
+  TieTable& ties = e.last.frame.ties;
+  e.scene.supports.restraints = {{BlockRef{3}, Vec3::Zero(), Vec3::UnitX()}};
+  for (const int strut : {0, 1}) {  // both signs of the restraint
+    ties.block_a.push_back(0);
+    ties.block_b.push_back(3);
+    ties.strut.push_back(static_cast<std::uint8_t>(strut));
+    ties.yield_force.push_back(INFINITY);
+  }
+  const std::string both = "the ties and their yield forces, the restraints, ";
+  ties.force = {1234.0, 0.0, 5000.0};
+  expect(", ties and restraints", by + "ties and restraints", both);
+  ties.force = {0.0, 0.0, 5000.0};
+  expect(" and restraints", by + "restraints", both);
+  ties.force = {0.0, 0.0, 0.0};
+  e.scene.loads.heat.resize(1);
+  expect("", " and without tension", both + "the changes of temperature, ");
 }
 
 TEST(Reasons, SaysWhetherTheVerdictIsProven) {
