@@ -238,8 +238,10 @@ ExitCode analyse(const AnalyseRequest& request) {
   const WrittenFiles written(folder);
   std::vector<Table> own_tables;
   std::optional<Figure> own;
-  if (const auto path = readable_table(run.results, "path.csv", &e))
+  if (const auto path = readable_table(run.results, "path.csv", &e)) {
     own = path_figure(own_tables.emplace_back(path_table(*path)));
+    if (path->rows.size() == e.times.size()) e.times = path_times(*path);  // not their numbers
+  }
   const std::optional<StageReport> construction = read_construction(run.results, &e);
   if (construction) {
     own_tables.push_back(construction->table);

@@ -210,14 +210,6 @@ void apply_limit(Evaluation* e) {
     e->assembly = with_thickness(e->assembly, value);
 }
 
-/// The applied forces at a time, s.
-std::vector<PointForce> loads_at(const Evaluation& e, double time) {
-  const std::vector<TimeFunction> times = load_times(e.acting);
-  std::vector<PointForce> loads = e.loads;
-  for (PointForce& load : loads) load.force *= load_factor(load.time, e.acting.dead_load_time, times, time);
-  return loads;
-}
-
 /// Of an equilibrium of some parts: blocks of the others.
 std::vector<bool> beside_standing_parts(const Evaluation& e, const FrameEvaluation& shown) {
   std::vector<bool> left_out(e.assembly.blocks.size(), true);
@@ -316,6 +308,14 @@ std::vector<std::string> notices(const Evaluation& e) {
   return all;
 }
 
+void set_loads(const Evaluation& e, double time, FrameEvaluation* shown) {
+  shown->gravity = factor_at(e.acting.dead_load_time, time) * e.acting.gravity + e.acting.pull;
+  const std::vector<TimeFunction> times = load_times(e.acting);
+  shown->loads = e.loads;
+  for (PointForce& load : shown->loads)
+    load.force *= load_factor(load.time, e.acting.dead_load_time, times, time);
+}
+
 FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
   check_blocks(frame, e.assembly);
   FrameEvaluation out;
@@ -330,8 +330,7 @@ FrameEvaluation evaluate_frame(const Evaluation& e, Frame frame) {
     // The time of an end of a range is its number, that of a stage its course: they bear what acts at time 0.
     const bool timeless = out.frame.role == FrameRole::range_end || is_stage(out.frame.role);
     const double time = timeless ? 0.0 : out.frame.time;
-    out.gravity = factor_at(e.acting.dead_load_time, time) * e.acting.gravity + e.acting.pull;
-    out.loads = loads_at(e, time);
+    set_loads(e, time, &out);
     leave_out_loads(e, &out);
   }
   out.from_below = wrenches_from_below(e.assembly, out.joints, out.poses);

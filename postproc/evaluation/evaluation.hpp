@@ -127,6 +127,9 @@ std::vector<std::string> notices(const Evaluation& evaluation);
 Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& results,
                     const std::vector<std::string>& doubts = {});
 
+/// Sets gravity and loads of a frame to those at `time`, s.
+void set_loads(const Evaluation& evaluation, double time, FrameEvaluation* shown);
+
 /// Evaluates one frame with the assembly, loads and shell of an evaluation, without the motion of the ground.
 /// The blocks of a mechanism are displaced along their velocities, far enough to be seen.
 FrameEvaluation evaluate_frame(const Evaluation& evaluation, Frame frame);

@@ -123,6 +123,16 @@ KeyNumber end_of_path(const Evaluation& e) {
           fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
 }
 
+/// What the structure bears at most on a path by a length, where the loads fall again before its end.
+KeyNumber largest_load(const Evaluation& e, double time) {
+  FrameEvaluation most;
+  set_loads(e, time, &most);
+  const std::string loads = loads_text(e, most);
+  return {"Largest load", fmt::format("{:.4g} s of {:.4g}", time, e.scene.analysis.path.end),
+          fmt::format("borne before the end of the path, which is at {:.4g} s{}{}", e.last.frame.time,
+                      loads.empty() ? "" : ": ", loads)};
+}
+
 /// What a search over directions leaves open; "" if it has decided all.
 std::string undecided_text(int sought, int decided) {
   if (decided >= sought) return "";
@@ -206,7 +216,11 @@ KeyNumber margin_answer(const Evaluation& e) {
             lack_of_equilibrium(e.summary, e.last.frame.role) +
                 (sought ? "" : "; to compute what it lacks: " + command_for_margins(e))};
   }
-  if (e.last.frame.role == FrameRole::path && !stands(e.summary.status)) return end_of_path(e);
+  if (e.last.frame.role == FrameRole::path) {
+    if (const double latest = std::ranges::max(e.times); latest > e.times.back())
+      return largest_load(e, latest);
+    if (!stands(e.summary.status)) return end_of_path(e);
+  }
   return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }
 

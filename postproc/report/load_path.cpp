@@ -35,6 +35,12 @@ Table path_table(const CsvFile& csv) {
   return t;
 }
 
+std::vector<double> path_times(const CsvFile& csv) {
+  std::vector<double> times;
+  for (size_t row = 0; row < csv.rows.size(); ++row) times.push_back(csv.number(row, csv.column("time_s")));
+  return times;
+}
+
 Figure path_figure(const Table& path) {
   double largest_force = 0.0, largest_displacement = 0.0, largest_work = 0.0;
   std::vector<std::array<double, 3>> points;

@@ -29,17 +29,17 @@ constexpr double kRoundingOfSums = 1e-9;  // of the weight: forces that balance 
 
 /// N: the weight of the free blocks as it pulls at the time shown, inclined in a tilted model, with the
 /// accelerations of a limit.
-Vec3 pull_of_weight(const Evaluation& e) {
+Vec3 pull_of_weight(const Evaluation& e, const FrameEvaluation& shown) {
   const double g = e.scene.loads.gravity.norm();
-  return g > 0.0 ? Vec3(e.summary.weight_N / g * e.last.gravity) : Vec3(Vec3::Zero());
+  return g > 0.0 ? Vec3(e.summary.weight_N / g * shown.gravity) : Vec3(Vec3::Zero());
 }
 
 /// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all": what acts downwards, and its sum with the weight.
-std::string vertical_loads(const Evaluation& e) {
+std::string vertical_loads(const Evaluation& e, const FrameEvaluation& shown) {
   std::array<double, kGroupNames.size()> down{};
-  for (const PointForce& load : e.last.loads)
+  for (const PointForce& load : shown.loads)
     down[static_cast<size_t>(group_of(e.acting, load.time))] -= load.force.dot(e.up);
-  double total = -pull_of_weight(e).dot(e.up);
+  double total = -pull_of_weight(e, shown).dot(e.up);
   std::vector<std::string> parts;
   for (size_t i = 0; i < down.size(); ++i) {
     if (std::abs(down[i]) <= kRoundingOfSums * e.summary.weight_N) continue;
@@ -54,10 +54,10 @@ std::string vertical_loads(const Evaluation& e) {
 }
 
 /// "horizontal loads of 1 kN, 0.1 of the weight": the sum of the loads, and of the weight in a tilted model.
-std::string horizontal_loads(const Evaluation& e) {
+std::string horizontal_loads(const Evaluation& e, const FrameEvaluation& shown) {
   const double weight = e.summary.weight_N;
-  Vec3 pull = pull_of_weight(e);
-  for (const PointForce& load : e.last.loads) pull += load.force;
+  Vec3 pull = pull_of_weight(e, shown);
+  for (const PointForce& load : shown.loads) pull += load.force;
   const double aside = (pull - pull.dot(e.up) * e.up).norm();
   return aside > kRoundingOfSums * weight
              ? fmt::format("horizontal loads of {}, {:.3g} of the weight", force_text(aside), aside / weight)
@@ -72,8 +72,8 @@ std::string weight_text(const Evaluation& e) {
   return force_text(acting) + (alike(acting, full) ? "" : " of " + force_text(full));
 }
 
-std::string loads_text(const Evaluation& e) {
-  const std::string vertical = vertical_loads(e), horizontal = horizontal_loads(e);
+std::string loads_text(const Evaluation& e, const FrameEvaluation& shown) {
+  const std::string vertical = vertical_loads(e, shown), horizontal = horizontal_loads(e, shown);
   return vertical + (vertical.empty() || horizontal.empty() ? "" : "; ") + horizontal;
 }
 

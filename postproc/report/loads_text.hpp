@@ -11,8 +11,11 @@ std::string weight_text(const Evaluation& evaluation);
 
 /// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all; horizontal loads of 42 kN, 0.014 of the weight":
 /// what acts besides the weight of the free blocks at the time shown, the sum of the first with it; "" if
-/// nothing does.
-std::string loads_text(const Evaluation& evaluation);
+/// nothing does. `shown`: has the loads of that time.
+std::string loads_text(const Evaluation& evaluation, const FrameEvaluation& shown);
+inline std::string loads_text(const Evaluation& evaluation) {
+  return loads_text(evaluation, evaluation.last);
+}
 
 /// "ties and restraints": which of them carry forces; "" if none does.
 std::string acting_ties(const Evaluation& evaluation);

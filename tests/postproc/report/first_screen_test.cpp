@@ -234,6 +234,24 @@ TEST(FirstScreen, APathThatEndsEarlySaysWhatItBore) {
       << margin_answer(e).detail;
 }
 
+// A path by a length, with 1 kN at 2 s, that bore 600 N at 1.2 s and then unloaded to 300 N at 0.6 s.
+TEST(FirstScreen, APathThatUnloadsSaysWhatItBoreAtMost) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.last.frame.role = FrameRole::path;
+  e.last.frame.time = 0.6;
+  e.scene.analysis.path.end = 2.0;
+  e.summary.weight_N = 1e4;
+  e.acting.forces.resize(1);
+  e.acting.forces[0].time = RampInTime{.from = 0.0, .to = 1.0, .start = 0.0, .duration = 2.0};
+  e.loads = {{1, Vec3::Zero(), Vec3(1000, 0, 0), 0}};
+  e.times = {0.0, 1.2, 0.6};
+  EXPECT_EQ(margin_answer(e).name, "Largest load");
+  EXPECT_EQ(margin_answer(e).value, "1.2 s of 2");
+  EXPECT_EQ(margin_answer(e).detail,
+            "borne before the end of the path, which is at 0.6 s: horizontal loads of 0.6 kN, 0.06 of the "
+            "weight");
+}
+
 // Readers of a screen hear the title first: a case without one lends the name of its file.
 TEST(FirstScreen, EveryReportHasATitle) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
