@@ -1,7 +1,11 @@
 #include "assembly/case/limit_parameter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
 
@@ -78,6 +82,17 @@ Case case_at(const Case& scene, double value) {
   return at;
 }
 
+std::string varied_joints(const LimitSearch& limit) {
+  if (limit.parameter != LimitSearch::Parameter::friction || !limit.joints) return "";
+  const auto [from, to] = std::pair(limit.joints->from, limit.joints->to);
+  const bool of_all_kinds = limit.joints->sort == RingJoints::Sort::all;
+  if (of_all_kinds && from == 0 && to >= kLastRing) return "";
+  std::string kind = of_all_kinds ? "" : to_string(limit.joints->sort) + " ";
+  std::ranges::replace(kind, '_', ' ');
+  return from == to ? fmt::format(" of the {}joints of course {}", kind, from)
+                    : fmt::format(" of the {}joints of courses {} to {}", kind, from, to);
+}
+
 std::optional<double> own_value(const Case& scene) {
   using enum LimitSearch::Parameter;
   const LimitSearch& limit = scene.analysis.limit;
@@ -87,7 +102,8 @@ std::optional<double> own_value(const Case& scene) {
   switch (limit.parameter) {
     case friction: {
       const auto [least, greatest] = scene.joints.friction_range();
-      return least == greatest ? std::optional(least) : std::nullopt;
+      const bool comparable = least == greatest && varied_joints(limit).empty();
+      return comparable ? std::optional(least) : std::nullopt;
     }
     case joint_extent:
       return 1.0;

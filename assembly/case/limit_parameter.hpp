@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "assembly/case/case.hpp"
 
@@ -10,9 +11,14 @@ namespace cupola {
 /// the time is the factor on the support displacements.
 Case case_at(const Case& scene, double value);
 
+/// " of the bed joints of course 1": those whose friction alone the limit varies; "" if of all, or another
+/// parameter.
+std::string varied_joints(const LimitSearch& limit);
+
 /// The value that the case itself has of the limit parameter. None if it has none: joints that differ in
-/// friction, a lantern given in newtons, thickness and peak stress, of which more is not always safer; and
-/// none outside the bracket unless more friction or larger joints bear whatever less bears.
+/// friction or of which only some are varied, a lantern given in newtons, thickness and peak stress, of which
+/// more is not always safer; and none outside the bracket unless more friction or larger joints bear whatever
+/// less bears.
 std::optional<double> own_value(const Case& scene);
 
 }  // namespace cupola

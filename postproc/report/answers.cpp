@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/ending.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/figures/plot_style.hpp"
@@ -71,8 +72,8 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (shows_bracket(critical) || critical.value == 0.0)
     details.push_back(fmt::format("stands at {}, moves at {}", value_text(critical.stable, unit, 5),
                                   value_text(critical.moving, unit, 5)));
-  return {"Critical " + critical.parameter, value_text(critical.stable, unit),
-          fmt::format("{}", fmt::join(details, "; "))};
+  return {"Critical " + critical.parameter + varied_joints(e.scene.analysis.limit),
+          value_text(critical.stable, unit), fmt::format("{}", fmt::join(details, "; "))};
 }
 
 /// How to compute the margins of this case.
@@ -201,13 +202,13 @@ KeyNumber margin_answer(const Evaluation& e) {
     const std::string clause = last_clause(e.summary.message);
     return {"Horizontal acceleration", clause.starts_with("no horizontal") ? "no limit" : "unknown", clause};
   }
+  const std::string of_limit =
+      to_string(e.scene.analysis.limit.parameter) + varied_joints(e.scene.analysis.limit);
   if (is_limit(e) && at_rest(e))
-    return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)),
-            stands(e.summary.status) ? lack_of_limit(e.summary.message) : "unknown",
+    return {"Critical " + of_limit, stands(e.summary.status) ? lack_of_limit(e.summary.message) : "unknown",
             e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
   if (is_limit(e) && moves(e.summary.status))
-    return {"Critical " + std::string(to_string(e.scene.analysis.limit.parameter)), "none",
-            first_clause(e.summary.message)};
+    return {"Critical " + of_limit, "none", first_clause(e.summary.message)};
   if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
     return least_answer(e);
   if (!at_rest(e)) {

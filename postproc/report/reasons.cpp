@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/answers.hpp"
@@ -145,7 +146,9 @@ std::string assumptions(const Evaluation& e) {
     given.back() += fmt::format(" (weight of {}, {}{})", weight_text(e), loads,
                                 critical && !is_stage(e.last.frame.role) ? " at the critical value" : "");
   const Joints laws = laws_of(e);
-  if (!critical || critical->parameter != "friction") given.push_back(friction_text(laws));
+  const bool varied = critical && critical->parameter == "friction";
+  if (!varied || !varied_joints(e.scene.analysis.limit).empty())
+    given.push_back(friction_text(laws) + (varied ? " of the other joints" : ""));
   if (laws.have_strength())
     given.emplace_back(e.scene.joints.have_strength() ? "the strength of the joints"
                                                       : "the strength of fresh mortar");
@@ -187,9 +190,12 @@ std::string limit_text(const Evaluation& e) {
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
   const std::optional<double> factor = factor_of_safety(e.scene, e.summary);
   if (!own || !factor) {
-    const std::string direction = direction_of_limit(e.scene.analysis.limit);
+    const LimitSearch& limit = e.scene.analysis.limit;
+    const std::string direction = direction_of_limit(limit), joints = varied_joints(limit);
     return verdict_text(e.summary, e.last.frame.role) +
-           (direction.empty() ? "" : fmt::format(" It is {}.", direction));
+           (direction.empty() ? "" : fmt::format(" It is {}.", direction)) +
+           (joints.empty() ? ""
+                           : fmt::format(" It is the friction{} alone; the others keep theirs.", joints));
   }
   const bool holds = *factor >= 1.0;
   std::string text;

@@ -160,7 +160,9 @@ void write_nothing_found(const Case& scene, const Assembly& assembly, const Anal
 }
 
 /// The critical value and what proves it from both sides.
-std::string bounds_text(const CriticalValue& critical, const DirectLimit& limit, bool balanced) {
+/// `joints`: of varied_joints().
+std::string bounds_text(const CriticalValue& critical, const std::string& joints, const DirectLimit& limit,
+                        bool balanced) {
   const std::string state =
       fmt::format("{} at {:.8g}", balanced ? "an admissible state" : "forces that do not balance the loads",
                   limit.admissible);
@@ -170,7 +172,7 @@ std::string bounds_text(const CriticalValue& critical, const DirectLimit& limit,
   const std::string other =
       fmt::format("{} {:.8g}{}", limit.mechanism.size() > 0 ? "a mechanism at" : "none below", limit.moving,
                   limit.motion_proven ? "" : unproven);
-  return fmt::format("{}; {}, {} (relative width {:.1e}){}", critical_text(critical), state, other,
+  return fmt::format("{}{}; {}, {} (relative width {:.1e}){}", critical_text(critical), joints, state, other,
                      limit.relative_width(), limit.message);
 }
 
@@ -185,7 +187,7 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
 void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimit limit,
                          const AnalysisSinks& sinks, Summary* summary) {
   const std::string name = to_string(scene.analysis.limit.parameter);
-  summary->message = name + ": " + limit.message;
+  summary->message = name + varied_joints(scene.analysis.limit) + ": " + limit.message;
   const bool stands = limit.gamma.size() > 0, moves = limit.mechanism.size() > 0;
   const double gravity = scene.loads.gravity.norm();
   RigidScene own = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));
@@ -223,7 +225,8 @@ void summarize_found(const Case& scene, const DirectLimit& limit, const Analysis
   const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;  // as above
   if (balanced) summary->status = width <= asked ? Status::stable : Status::bracketed;
   summary->critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
-  summary->message = bounds_text(*summary->critical, limit, balanced) + mechanism + bound_for_coulomb(limit);
+  summary->message = bounds_text(*summary->critical, varied_joints(scene.analysis.limit), limit, balanced) +
+                     mechanism + bound_for_coulomb(limit);
   if (width > asked) summary->message += missed_width(width, asked);
 }
 

@@ -244,9 +244,9 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   if (bracket.found)
     summary.critical =
         CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
-  summary.message =
-      fmt::format("{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
-                  bracket.message, mechanism.empty() ? "" : "; ", mechanism);
+  summary.message = fmt::format(
+      "{}{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
+      varied_joints(scene.analysis.limit), bracket.message, mechanism.empty() ? "" : "; ", mechanism);
   if (bracket.at_both_ends == StaticOutcome::moving && run.stable)
     summary.message += "; the case itself stands";
   for (const std::optional<Probe>* probe : {&run.stable, &run.moving})

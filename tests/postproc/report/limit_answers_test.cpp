@@ -105,6 +105,26 @@ TEST(LimitAnswers, SupportsThatSpreadFurtherThanTheCriticalFactorAreItsFall) {
   EXPECT_NEAR(factor_of_safety(e.scene, e.summary).value(), 0.625, 1e-15);
 }
 
+// A limit that varies the friction of some joints is none of the others, nor of the case.
+TEST(LimitAnswers, NamesTheJointsWhoseFrictionItVaries) {
+  Evaluation e = limit_of(LimitSearch::Parameter::friction, 0.0, 0.2, 0.2 - 1e-9);
+  e.scene.joints.friction = 0.6;
+  e.scene.analysis.limit.joints = RingJoints{1, 1, RingJoints::Sort::laid_bed, {}};
+  EXPECT_EQ(verdict_words(e).words, "Limit found");
+  EXPECT_EQ(margin_answer(e).name, "Critical friction of the laid bed joints of course 1");
+  EXPECT_TRUE(reason_for_verdict(e).ends_with(
+      " It is the friction of the laid bed joints of course 1 alone; the others keep theirs."))
+      << reason_for_verdict(e);
+  EXPECT_NE(certain_sentence(e).find("a coefficient of friction of 0.6 of the other joints"),
+            std::string::npos)
+      << certain_sentence(e);
+  e.scene.analysis.limit.joints = RingJoints{0, 4, RingJoints::Sort::all, {}};
+  e.summary.critical.reset();
+  e.summary.status = Status::stable;
+  e.summary.message = "friction: no limit: the structure stands with a friction of 1e-05, as good as none";
+  EXPECT_EQ(margin_answer(e).name, "Critical friction of the joints of courses 0 to 4");
+}
+
 // A block on a floor without friction: its bracket has no relative width, and nothing is less than 0 g.
 TEST(LimitAnswers, ALimitAtZeroHasTheWidthThatWasReached) {
   Evaluation e = limit_of(LimitSearch::Parameter::acceleration, 0.0, 0.0, 5e-10);
