@@ -27,6 +27,14 @@ void freeze(TimeFunction* time) {
   *time = RampInTime{factor, factor, 0.0, 1.0};
 }
 
+/// Tension ends at cohesion over friction, so that more friction can bear less.
+bool bear_tension(const Joints& joints) {
+  const auto pulls = [](const JointLawChange& law) { return law.tension.value_or(0.0) > 0.0; };
+  return joints.strength.tension > 0.0 ||
+         std::ranges::any_of(joints.kinds(), [&](const auto& kind) { return pulls(*kind.second); }) ||
+         std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return pulls(group.law); });
+}
+
 }  // namespace
 
 Case case_at(const Case& scene, double value) {
@@ -102,7 +110,8 @@ std::optional<double> own_value(const Case& scene) {
   switch (limit.parameter) {
     case friction: {
       const auto [least, greatest] = scene.joints.friction_range();
-      const bool comparable = least == greatest && varied_joints(limit).empty();
+      const bool comparable =
+          least == greatest && varied_joints(limit).empty() && !bear_tension(scene.joints);
       return comparable ? std::optional(least) : std::nullopt;
     }
     case joint_extent:

@@ -16,9 +16,9 @@ Case case_at(const Case& scene, double value);
 std::string varied_joints(const LimitSearch& limit);
 
 /// The value that the case itself has of the limit parameter. None if it has none: joints that differ in
-/// friction or of which only some are varied, a lantern given in newtons, thickness and peak stress, of which
-/// more is not always safer; and none outside the bracket unless more friction or larger joints bear whatever
-/// less bears.
+/// friction or of which only some are varied, a lantern given in newtons; thickness, peak stress, and friction
+/// of joints that bear tension, of which more is not always safer; and none outside the bracket unless more
+/// friction or larger joints bear whatever less bears.
 std::optional<double> own_value(const Case& scene);
 
 }  // namespace cupola

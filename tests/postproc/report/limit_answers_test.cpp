@@ -125,6 +125,19 @@ TEST(LimitAnswers, NamesTheJointsWhoseFrictionItVaries) {
   EXPECT_EQ(margin_answer(e).name, "Critical friction of the joints of courses 0 to 4");
 }
 
+// Joints that pull may bear less with more friction: a block on a slope that two values hold falls beyond the
+// upper one, of which a search that finds the lower one knows nothing.
+TEST(LimitAnswers, FrictionOfJointsThatBearTensionIsNoVerdict) {
+  Evaluation e = limit_of(LimitSearch::Parameter::friction, 0.0, 0.3, 0.2999);
+  e.scene.joints.friction = 0.9;
+  EXPECT_EQ(verdict_words(e).words, "It stands");
+  e.scene.joints.strength.cohesion = 2e4;
+  EXPECT_EQ(verdict_words(e).words, "It stands") << "cohesion alone bears no tension";
+  e.scene.joints.head.emplace().tension = 1.5e4;
+  EXPECT_EQ(verdict_words(e).words, "Limit found");
+  EXPECT_FALSE(factor_of_safety(e.scene, e.summary));
+}
+
 // A block on a floor without friction: its bracket has no relative width, and nothing is less than 0 g.
 TEST(LimitAnswers, ALimitAtZeroHasTheWidthThatWasReached) {
   Evaluation e = limit_of(LimitSearch::Parameter::acceleration, 0.0, 0.0, 5e-10);
