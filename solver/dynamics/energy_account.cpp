@@ -4,6 +4,7 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/energy.hpp"
+#include "solver/dynamics/joint_damage.hpp"
 #include "solver/runtime/ordered_sum.hpp"
 
 namespace cupola {
@@ -39,15 +40,14 @@ double damping_work(const StepProblem& step, Eigen::Index row, double rate, cons
   return c > 0.0 ? options.damping * options.h * rate * rate / c : 0.0;
 }
 
-/// J: negative of the work of gamma on the inelastic displacements reach z of one contact, friction and
-/// dilatancy.
+/// J: negative of the work of gamma on the inelastic displacement (m) of one contact, friction and dilatancy.
 struct JointWork {
   double friction = 0.0, dilatancy = 0.0;
 };
-JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& z) {
-  const double scale = step.reach / step.impulse_time[i];
-  const double normal = scale * gamma[0] * z[0];
-  JointWork work{-scale * gamma.tail<2>().dot(z.tail<2>()), std::max(0.0, normal)};
+JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& displacement) {
+  const Vec3 force = gamma / step.impulse_time[i];
+  const double normal = force[0] * displacement[0];
+  JointWork work{-force.tail<2>().dot(displacement.tail<2>()), std::max(0.0, normal)};
   if (!step.problem.strength.empty()) work.friction += std::max(0.0, -normal);
   return work;
 }
@@ -82,8 +82,14 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
   *work = sum_in_order(kAccountOperationsPerContact * nc, nc, *work, [&](int i) {
     const Eigen::Index row = 3 * i;
     const Vec3 gamma = solution.gamma.segment<3>(row);
-    const JointWork joint = joint_work(step, i, gamma, z.segment<3>(row));
+    const Eigen::Vector2d z_t = z.segment<2>(row + 1), u_t = u_el.segment<2>(row + 1) + z_t;
+    const Eigen::Vector2d rate_t = rate_of_spring(step, i, u_t, z_t, start.state.v, options);
+    Vec3 inelastic = step.reach * z.segment<3>(row);  // as update_memories()
+    inelastic.tail<2>() -= options.damping * (u_el.segment<2>(row + 1) - rate_t);
+    const JointWork joint = joint_work(step, i, gamma, inelastic);
     const Vec3 rate = stretching(step, i, u_el.segment<3>(row), start.elastic_gap[i]);
+    Vec3 damped = rate;
+    damped.tail<2>() = rate_t;
     const double taken = -p.segment<3>(row).dot(mean.segment<3>(row));
     const double stored = springs[i] - start.springs[i];
     const double approach_per_step = options.h * (u_start[row] + share * step.support_velocity_of(i)[0]);
@@ -91,7 +97,7 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
     term.friction = joint.friction;
     term.dilatancy = joint.dilatancy;
     for (int k = 0; k < 3 && !gamma.isZero(0.0); ++k)
-      term.damping += damping_work(step, row + k, rate[k], options);
+      term.damping += damping_work(step, row + k, damped[k], options);
     // A spring that no force compresses expands against its damper.
     if (gamma.isZero(0.0) && options.damping > 0.0) term.damping = -stored;
     if (gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i])
@@ -177,7 +183,7 @@ double joint_dissipation(const StepProblem& step, const ContactSolution& solutio
   const VecX z = relative_velocity(problem, solution.v) + problem.b + problem.E.cwiseProduct(solution.gamma);
   double work = 0.0;
   for (int i = 0; i < step.num_contacts; ++i)
-    work += joint_work(step, i, solution.gamma.segment<3>(3 * i), z.segment<3>(3 * i)).friction;
+    work += joint_work(step, i, solution.gamma.segment<3>(3 * i), step.reach * z.segment<3>(3 * i)).friction;
   for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie)
     work += yield_work(step, tie, solution);
   return work;

@@ -71,6 +71,18 @@ Vec3 inelastic_velocity(const ContactProblem& problem, int i, const ContactSolut
          problem.E.segment<3>(3 * i).cwiseProduct(solution.gamma.segment<3>(3 * i));
 }
 
+Eigen::Vector2d rate_of_spring(const StepProblem& step, int i, const Eigen::Vector2d& u,
+                               const Eigen::Vector2d& z, const VecX& v, const StepOptions& options) {
+  const bool past = step.impulse_time[i] < options.h;
+  if (!past) return u - z;
+  const double h_alpha = options.h + options.damping;
+  const Eigen::Vector2d slip = options.damped_reach() / h_alpha * z, rate = u - slip;
+  if (slip.norm() <= rate.norm()) return rate;
+  const KnownMotion known = known_motion(step, i, v, options);
+  const Eigen::Vector2d expected = (options.h - options.reach()) * u;  // at a constant velocity
+  return rate + ((known.to_middle + known.rest).tail<2>() - expected) / h_alpha;
+}
+
 namespace {
 
 /// True if the joint cracked and has a strength left: it then either bears or pulls.

@@ -58,6 +58,17 @@ bool let_joints_bear_and_pull(ContactMemories* memories);
 /// Inelastic velocity z of contact i, m/s.
 Vec3 inelastic_velocity(const ContactProblem& problem, int i, const ContactSolution& solution);
 
+/// m/s, tangential: the rate of the spring of contact i at the end of a step, whose damper has the rest of the
+/// force, alpha rate / c. b contains what is known of the motion of a contact with a past as if it stretched
+/// the spring, which a damper would then keep stretched. While the contact sticks the rate is u; the known
+/// motion of one that slips faster than that is slip, and its spring follows the force:
+///
+///     (h + alpha) rate = - (elastic_slip + c r_t)
+///
+/// `u`: with the motion of supports; `z`: tangential part of inelastic_velocity(); `v`: as of known_motion().
+Eigen::Vector2d rate_of_spring(const StepProblem& step, int i, const Eigen::Vector2d& u,
+                               const Eigen::Vector2d& z, const VecX& v, const StepOptions& options);
+
 /// At the end of a step: adds its inelastic displacement h z (m) under the impulse gamma (N s).
 void add_inelastic_displacement(const JointLaw& law, const Vec3& displacement, const Vec3& gamma,
                                 JointDamage* joint);

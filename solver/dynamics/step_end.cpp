@@ -93,12 +93,16 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
                                            : std::min(0.0, elastic_gap);
     const bool carries_shear =
         gamma[0] > 0.0 || (model.joints.has_strength() && !gamma.tail<2>().isZero(0.0));
-    memory.plastic_slip += carries_shear ? h * (u.segment<2>(3 * i + 1) - u_el.tail<2>()).norm() : 0.0;
+    const Eigen::Vector2d z_t = u.segment<2>(3 * i + 1) - u_el.tail<2>();
+    const Eigen::Vector2d rate = rate_of_spring(step, i, u.segment<2>(3 * i + 1), z_t, state.v, options);
+    const Eigen::Vector2d relaxed = options.damping * (u_el.tail<2>() - rate);
+    memory.plastic_slip += carries_shear ? (h * z_t - relaxed).norm() : 0.0;
     if (model.joints.has_strength())
       add_inelastic_displacement(joint_law(model, contacts, contact, state.time + options.advance()),
                                  h * (u.segment<3>(3 * i) - u_el), gamma, &memory.joint);
 
-    const Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
+    Vec3 slip_C = Vec3(0.0, b[1], b[2]) * (h + options.damping) + h * Vec3(0.0, u_el[1], u_el[2]);
+    slip_C.tail<2>() += relaxed;
     memory.elastic_slip_A = state.poses[contact.block_a].q_WB.conjugate() * (R_WC * slip_C);
     if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
     if (options.integrator.is_euler()) return;

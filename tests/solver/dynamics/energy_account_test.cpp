@@ -174,6 +174,29 @@ TEST(EnergyAccountTerms, OfASlidingBlockUnderTheAssociatedLawReturnTheFrictionAs
   EXPECT_LT(follow(sliding_box(FrictionLaw::coulomb)).work.dilatancy, 1e-9 * work.friction) << "rounding";
 }
 
+// A block of weight W slides down a slope of 0.5 with friction mu = 0.2, whose springs store c T^2 / 8 for the
+// friction T of its four corners, however far it slides; four times as much where it settles on them.
+TEST(EnergyAccountTerms, OfSlidingJointsStoreNoSlip) {
+  Motion motion = sliding_box(FrictionLaw::coulomb);
+  motion.scene.analysis.damping = 0.01;
+  const double weight = motion.assembly.blocks[1].mass * kG, c = 1e-9;
+  for (const Motion& m : {motion, second_order(motion)}) {
+    Simulation simulation = testing::simulate(m.scene, m.assembly);
+    StepWork work;
+    double stored = 0.0;
+    for (int k = 0; k < m.steps; ++k) {
+      const StepReport report = simulation.advance();
+      work += report.work;
+      stored = std::max(stored, report.energy.elastic);
+    }
+    EXPECT_LT(stored, 4.0 * c * weight * weight / 8.0) << m.name;
+    EXPECT_LT(work.damping, 1e-3 * work.friction) << m.name;
+    const double length = simulation.state().poses[1].p_WB.x(), normal = weight / std::sqrt(1.25);
+    EXPECT_NEAR(work.friction / (0.2 * normal * length), 1.0, 1e-3)
+        << m.name << ": the step in which it starts";
+  }
+}
+
 // A lift raises a block of weight W by 0.02 m and pushes it sideways: the work is that of the reaction.
 TEST(EnergyAccountTerms, OfSlowSupportsAreTheWeightTimesTheRise) {
   Motion motion = shaken_stack();
