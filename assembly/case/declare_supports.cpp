@@ -63,6 +63,10 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
   }
   s.expect({" (largest acceleration)", peak, "m/s2", 0.1, 50.0, "in g? Multiply direction by 9.81",
             "in cm/s2 (gal)? Multiply direction by 0.01"});
+  s.rule(table.times.front() >= 0.0, "file",
+         fmt::format("its first time is {:g} s. Accelerations are integrated from rest, and the analysis "
+                     "starts at 0 s: shift the times so that the first is 0 or later",
+                     table.times.front()));
   expect_rest_at_end(s, motion, table);
 }
 

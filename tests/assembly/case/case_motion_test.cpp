@@ -88,9 +88,12 @@ TEST(ReadMotion, ErrorsNameTheBrokenRule) {
   const ScratchFolder scratch;
   scratch.write("bad.csv", "0 0\n0 1\n");
   scratch.write("good.csv", "0 0\n1 1\n");
+  scratch.write("early.csv", "-1 0\n0 1\n1 0\n");
   for (const BadMotion& bad : std::initializer_list<BadMotion>{
            {"supports: {base_motion: {file: absent.csv}}", "no such file"},
            {"supports: {base_motion: {quantity: displacement}}", "supports.base_motion.file: must be given"},
+           {"supports: {base_motion: {file: early.csv, quantity: acceleration}}",
+            "its first time is -1 s. Accelerations are"},
            {"supports: {moves: [{time: {type: table, file: bad.csv}}]}", "times must increase"},
            {"supports: {moves: [{time: {type: table, times: [0, 0], values: [1, 2]}}]}", "must increase"},
            {"loads: {dead_load_time: {type: table, file: good.csv, times: [0, 5], values: [7, 7]}}",
