@@ -77,9 +77,9 @@ void declare_pull_rule(Section& s, const Case& the_case) {
   constexpr double kInclined = 0.5;  // sine of 30 degrees
   const LimitSearch& limit = the_case.analysis.limit;
   const Vec3& gravity = the_case.loads.gravity;
-  s.rule(the_case.analysis.robustness == 0 || gravity.head<2>().norm() <= kInclined * gravity.norm(),
-         "analysis.robustness",
-         "has horizontal directions: loads.gravity must be vertical, within 30 degrees");
+  const bool vertical = gravity.norm() > 0.0 && gravity.head<2>().norm() <= kInclined * gravity.norm();
+  s.rule(the_case.analysis.robustness == 0 || vertical, "analysis.robustness",
+         "seeks horizontal multiples of loads.gravity, which must be vertical, within 30 degrees, and not 0");
   if (the_case.analysis.type != AnalysisType::limit ||
       (limit.parameter != tilt && limit.parameter != acceleration))
     return;

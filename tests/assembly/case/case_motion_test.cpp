@@ -94,6 +94,8 @@ TEST(ReadMotion, ErrorsNameTheBrokenRule) {
            {"supports: {base_motion: {quantity: displacement}}", "supports.base_motion.file: must be given"},
            {"supports: {base_motion: {file: early.csv, quantity: acceleration}}",
             "its first time is -1 s. Accelerations are"},
+           {"loads: {gravity: [0, 0, 0]}\nanalysis: {robustness: 8}",
+            "must be vertical, within 30 degrees, and not 0"},
            {"supports: {moves: [{time: {type: table, file: bad.csv}}]}", "times must increase"},
            {"supports: {moves: [{time: {type: table, times: [0, 0], values: [1, 2]}}]}", "must increase"},
            {"loads: {dead_load_time: {type: table, file: good.csv, times: [0, 5], values: [7, 7]}}",
