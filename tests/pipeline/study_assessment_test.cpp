@@ -67,6 +67,20 @@ TEST(Assessment, SaysWhyAPartWasNotComputed) {
       << run.err;
 }
 
+// Keys that suit the analysis of the case, but not those of the page, leave no part out.
+TEST(Assessment, ComputesAllPartsOfACaseWithKeysOfItsOwn) {
+  const ProgramFolder folder;
+  const ProgramRun run = assess(folder, std::string(kArch) +
+                                            "analysis:\n"
+                                            "  robustness: 4\n"
+                                            "  accuracy: {wrench_error: 0.01}\n"
+                                            "  limit: {method: bisection, joints: {from: 1}}\n");
+  EXPECT_EQ(run.code, 0) << run.err;
+  const std::vector<std::string> margins = rows(folder, "margins.csv");
+  ASSERT_EQ(margins.size(), 4u);
+  EXPECT_EQ(margins[1].find("Critical friction,"), 0u) << "of all joints: " << margins[1];
+}
+
 // A case that moves its supports itself has no settlements: their table is left out.
 TEST(Assessment, ShowsNoTableWithoutRuns) {
   const ProgramFolder folder;
