@@ -78,6 +78,7 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
   const VecX p = step.past_impulse.size() > 0 ? VecX(solution.gamma + step.past_impulse) : solution.gamma;
   const std::vector<double> springs = spring_energies(step, memories, options);
   work->supports = step.support_velocity.size() > 0 ? -share * p.dot(step.support_velocity) : 0.0;
+  const double moved = options.h * options.h * reference_acceleration(model, state);  // as update_memories()
   const int nc = step.num_contacts;
   *work = sum_in_order(kAccountOperationsPerContact * nc, nc, *work, [&](int i) {
     const Eigen::Index row = 3 * i;
@@ -100,7 +101,7 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
       term.damping += damping_work(step, row + k, damped[k], options);
     // A spring that no force compresses expands against its damper.
     if (gamma.isZero(0.0) && options.damping > 0.0) term.damping = -stored;
-    if (gamma[0] > 0.0 && approach_per_step < start.elastic_gap[i])
+    if (gamma[0] > 0.0 && start.elastic_gap[i] - approach_per_step > moved)
       term.impact =
           taken - joint.friction + joint.dilatancy + step.reach / step.impulse_time[i] * gamma.dot(rate);
     term.scheme = taken + joint.dilatancy - joint.friction - term.damping - term.impact - stored;

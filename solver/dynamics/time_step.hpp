@@ -101,8 +101,9 @@ VecX mean_velocity(const StepProblem& step, const State& state, const ContactSol
 ///     u    = D^T v + D_s^T v_s             relative velocity
 ///     u_el = u - (D^T v + b + E gamma)     its elastic part, equal to u while the contact sticks
 ///
-/// The gap and the slip of the springs change by reach() u_el. The rest of the tangential motion is plastic
-/// slip, and the rest of the motion of joints with strength adds to their damage.
+/// The gap and the slip of the springs change by reach() u_el, but the slip so that it follows from the force
+/// and rate_of_spring() (joint_damage.hpp). The rest of the tangential motion is plastic slip, and the rest of
+/// the motion of joints with strength adds to their damage.
 void update_memories(const Model& model, const StepProblem& step, const ContactSolution& solution,
                      const State& state, const ContactSet& contacts, const StepOptions& options,
                      ContactMemories* memories);

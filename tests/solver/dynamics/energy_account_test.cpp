@@ -197,6 +197,15 @@ TEST(EnergyAccountTerms, OfSlidingJointsStoreNoSlip) {
   }
 }
 
+// A rigid block that slides falls on nothing: what the integrator loses is no impact.
+TEST(EnergyAccountTerms, OfARigidBlockThatSlidesHaveNoImpact) {
+  Motion motion = sliding_box(FrictionLaw::coulomb);
+  motion.scene.joints.compliance = {0.0, 0.0, Compliance::Per::point};
+  const StepWork work = follow(motion).work;
+  EXPECT_GT(work.friction, 1.0);
+  EXPECT_EQ(work.impact, 0.0);
+}
+
 // A lift raises a block of weight W by 0.02 m and pushes it sideways: the work is that of the reaction.
 TEST(EnergyAccountTerms, OfSlowSupportsAreTheWeightTimesTheRise) {
   Motion motion = shaken_stack();
