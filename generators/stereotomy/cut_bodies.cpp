@@ -289,7 +289,9 @@ class Carving {
     std::optional<int> widest;
     double width = 0.0;
     for (const int ring : {laid.ring, laid.ring - 1, laid.ring + 1}) {
-      for (const size_t k : of_ring_[ring]) {
+      const auto course = of_ring_.find(ring);
+      if (course == of_ring_.end()) continue;
+      for (const size_t k : course->second) {
         const Cell& other = cells_[k];
         if (other.is_rest || assembly_->blocks[origin(other.block)].fixed) continue;
         for (const size_t i : own)

@@ -145,6 +145,26 @@ TEST(CutsAlongJoints, RestsOfACourseMakeNoSlab) {
     EXPECT_TRUE(assembly.blocks[b].fixed || high[b] - low[b] < 2.0 + 1e-9) << b;
 }
 
+// A door 40 mm before the end of a wall leaves rests of the first course that touch no stone of it. Behind
+// another member all supports of the wall were dropped.
+TEST(CutsAlongJoints, SupportsDependOnNoOtherMember) {
+  Cut door;
+  door.kind = Cut::Kind::prism;
+  door.axis = Cut::Axis::x;
+  door.u = {2.0, 3.96, 3.96, 2.0};
+  door.v = {-1.0, -1.0, 1.0, 1.0};
+  const Case alone = wall({door});
+  Case second = alone;
+  Member& first = second.geometry.members.emplace_back();
+  first.name = "first";
+  first.at = Place{{20.0, 0.0, 0.0}, 0.0};
+  first.surface = WallSurface{};
+  ModelReport expected, found;
+  check_and_report(alone, &expected);
+  check_and_report(second, &found);
+  EXPECT_EQ(found.num_supports, expected.num_supports + 1);
+}
+
 // The corners where an oblique plane meets head joints between the skins lie on no edge across: stones with
 // half of their corners moved were 13 % on the unsafe side. Across the axis it makes the thinner barrel.
 TEST(CutsAlongJoints, TheThicknessOfObliqueCutsIsRefused) {
