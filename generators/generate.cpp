@@ -132,9 +132,9 @@ bool has_cuts(const std::vector<Storey>& storeys) {
 }
 
 /// Refuses a member, or what cuts leave of it, that stands on nothing. `joint_gap`: m, the widest of a joint.
-void refuse_floating(const Geometry& geometry, const std::vector<Storey>& storeys, const Assembly& assembly,
-                     const ModelReport& report, double joint_gap) {
-  if (!report.floating || (storeys.size() == 1 && !has_cuts(storeys))) return;
+void refuse_floating(const Geometry& geometry, const Assembly& assembly, const ModelReport& report,
+                     double joint_gap) {
+  if (!report.floating) return;
   const Block& block = assembly.blocks[*report.floating];
   const Sheet* sheet = assembly.sheet_of(block.ring);
   const double gap = geometry.imperfections ? geometry.imperfections->gap : 0.0;
@@ -243,7 +243,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   }
   tolerances.part_by_part = has_cuts(storeys);
   report->model = check_model(assembly, tolerances);
-  refuse_floating(geometry, storeys, assembly, report->model, tolerances.joint_gap);
+  refuse_floating(geometry, assembly, report->model, tolerances.joint_gap);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
   const Case resolved = resolved_case(input, assembly);
   return with_report(std::move(assembly), *report, resolved);

@@ -20,10 +20,10 @@ struct Thickness {
 /// Heights above the springing, m, between which a wythe or its bonders exist. A course belongs to the range
 /// in which the middle of its intrados at a corner lies.
 struct HeightRange {
-  double from = 0.0;              ///< >= 0
+  double from = 0.0;              ///< >= 0; 0: from the first course, whatever its height
   std::optional<double> to = {};  ///< none: to the top
 
-  bool contains(double height) const { return height >= from && (!to || height < *to); }
+  bool contains(double height) const { return (from == 0.0 || height >= from) && (!to || height < *to); }
 };
 
 /// One layer of the thickness, as of a wall of two leaves or a dome of two shells.

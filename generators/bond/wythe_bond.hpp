@@ -12,7 +12,7 @@ std::vector<std::string> member_names(const Masonry& masonry);
 /// that it occupies; separate_rests() says what becomes of the blocks that it cuts. All wythes get the cuts
 /// of all bonds, and a course of a wythe with fewer courses consists of several courses of `grid`.
 ///
-/// `heights` of the middles of the courses of the grid, m above the datum of the surface. (num_rings)
+/// `heights` of the middles of the courses of the grid, m above the springing. (num_rings)
 ///
 /// Throws InputError for a wythe or a group of bonders without any block.
 BondPattern make_wythe_bond(const Masonry& masonry, const BondGrid& grid, const std::vector<double>& heights);

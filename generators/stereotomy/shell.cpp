@@ -46,10 +46,11 @@ void apply(const Affine& affine, SurfaceMap* surface) {
   surface->at = [affine, at = surface->at](double bed, double abscissa, double depth) -> Vec3 {
     return affine.image(at(bed, abscissa, depth));
   };
+  surface->springing = affine.image(surface->springing);
   if (surface->shell_volume) *surface->shell_volume *= affine.scale.prod();
 }
 
-/// m above the datum of the surface, of the middle of each course.
+/// m above the springing, of the middle of each course.
 std::vector<double> course_heights(const SurfaceMap& surface) {
   std::vector<double> heights;
   for (int ring = 0; ring < surface.num_rings(); ++ring)

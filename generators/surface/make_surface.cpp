@@ -111,6 +111,7 @@ SurfaceMap make_surface(Surface surface, int rings, std::vector<Thickness> wythe
   map.closed = traits_of(surface).closed;
   map.thrust_lines = traits_of(surface).thrust_lines;
   map.wythes = std::move(wythes);
+  map.springing = map.intrados(0, map.first_corner);
   if (!std::ranges::all_of(map.wythes, &Thickness::constant)) {
     map.shell_volume.reset();
     map.flat_rings = false;

@@ -42,14 +42,14 @@ struct SurfaceMap {
   int webs = 0;                 ///< > 0: this is one of the webs of a groin vault, before they are cut
   Plan::Groins groins = Plan::Groins::bonded;  ///< of these webs
   int springers = 0;                           ///< courses of them that are one stone at each corner
-  bool carries = false;  ///< a support, a key stone or another surface lies on the last bed
-  double datum = 0.0;    ///< m, z from which heights count: the springing, or the foot of a drum
-  int rings_below = 0;   ///< courses of the drum below the first bed
+  bool carries = false;                ///< a support, a key stone or another surface lies on the last bed
+  Vec3 springing = Vec3::Zero();       ///< m, of the intrados at a corner; make_surface sets it
+  int rings_below = 0;                 ///< courses of the drum below the first bed
   std::optional<double> shell_volume;  ///< m3, of the smooth shell, if a closed form is known
 
   int num_wythes() const { return static_cast<int>(wythes.size()); }
-  /// m, of a bed above the datum: of its intrados at a corner.
-  double height(double bed) const { return at(bed, first_corner, 0.0).z() - datum; }
+  /// m, of a bed above the springing: of its intrados at a corner.
+  double height(double bed) const { return at(bed, first_corner, 0.0).z() - springing.z(); }
   /// m, from the intrados to a layer.
   double depth(double bed, int layer) const;
   Vec3 point(double bed, double abscissa, int layer) const { return at(bed, abscissa, depth(bed, layer)); }

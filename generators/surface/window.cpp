@@ -15,9 +15,9 @@ namespace {
 
 using std::numbers::pi;
 
-/// Bed of the whole surface, as a fraction, where the intrados at abscissa 0 has the height of the window.
+/// Bed of the whole surface, as a fraction, where the intrados at a corner has the height of the window.
 double bed_at_height(const SurfaceMap& whole, double height) {
-  const auto residual = [&](double bed) { return whole.intrados(bed, 0.0).z() - height; };
+  const auto residual = [&](double bed) { return whole.height(bed) - height; };
   const double crown = residual(whole.num_rows);
   if (crown <= 0.0)
     throw InputError(

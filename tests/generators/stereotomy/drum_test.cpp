@@ -170,6 +170,16 @@ TEST(Drum, LintelsRestOnTheirBearingInWallsThatLean) {
   }
 }
 
+TEST(Drum, SillsCountFromItsFirstBed) {
+  VaultSurface wall;
+  wall.profile.kind = Profile::Kind::chain;
+  wall.profile.points = {{5.0, 5.0}, {3.0, 7.0}, {0.0, 0.0}, {}};
+  wall.thickness = 0.6;
+  Openings group = openings(1.0, 1.0, 1.0);
+  group.per_ring = 4;
+  EXPECT_EQ(opening_places({group}, make_surface(wall, 8), "openings").front().first_ring, 2);
+}
+
 TEST(Drum, HasAnOpeningWhereItIsPlaced) {
   Openings group = openings(1.0, 0.5, 1.5);
   group.per_ring = 4;

@@ -302,6 +302,44 @@ TEST(Wythes, OfAWindowFillItsSector) {
   EXPECT_GT(count(assembly, "header"), 2 * 89);
 }
 
+// The centre of an arch lies at z = 0, that of a segmental vault below its springing.
+TEST(Wythes, CountHeightsFromTheSpringing) {
+  const StackBond bond{15, 1, 1, {}};
+  Case arch;
+  arch.geometry.surface = ArchSurface{.half_embrace_deg = 45.0};
+  arch.geometry.wythes = {{"ring", {{0.0, 1.4}, {1.0, 0.5}}, bond, {}}};
+  Case segment = arch;
+  VaultSurface same;
+  same.plan.kind = Plan::Kind::line;
+  same.profile.kind = Profile::Kind::segmental;
+  same.profile.span = 10.0 * std::sin(pi / 4);
+  same.profile.rise = 5.0 * (1.0 - std::cos(pi / 4));
+  segment.geometry.surface = same;
+  EXPECT_NEAR(volumes(generate(arch)).at("ring"), volumes(generate(segment)).at("ring"), 1e-12)
+      << "rounding of rotated coordinates, m3";
+}
+
+// A springing below z = 0, and one below the other: no course is left out.
+TEST(Wythes, BeginWithTheFirstCourse) {
+  Case horseshoe;
+  horseshoe.geometry.surface = ArchSurface{.half_embrace_deg = 110.0};
+  VaultSurface rampant;
+  rampant.plan.kind = Plan::Kind::line;
+  rampant.profile.kind = Profile::Kind::chain;
+  rampant.profile.points = {
+      {5.0, 4.0, 0.0, -4.0, -5.0}, {0.0, 3.0, 4.0, 0.0, -4.0}, std::vector<double>(5, 0.0), {}};
+  rampant.thickness = 0.5;
+  Case falling = horseshoe;
+  falling.geometry.surface = rampant;
+  for (Case* c : {&horseshoe, &falling}) {
+    c->geometry.wythes = {wythe("inner", 0.3, StackBond{20, 1, 1, {}})};
+    ModelReport report;
+    const Assembly assembly = check_and_report(*c, &report);
+    EXPECT_EQ(count(assembly, "inner"), 20);
+    EXPECT_EQ(report.islands, 1);
+  }
+}
+
 TEST(Wythes, RefuseWhatTheyDoNotSupport) {
   Case c = two_leaves(4);
   c.geometry.imperfections = Imperfections{.gap = 1e-3};
@@ -310,6 +348,9 @@ TEST(Wythes, RefuseWhatTheyDoNotSupport) {
   c.geometry.bonders = {headers(20, 0.0, 1.0)};
   c.geometry.bonders.front().first = 4;
   EXPECT_THROW(cut_assembly(c), InputError);
+  c = two_leaves(4);
+  for (Wythe& leaf : c.geometry.wythes) leaf.where.from = 0.1;
+  EXPECT_THROW(generate(c), InputError) << "nothing below";
 }
 
 }  // namespace
