@@ -216,11 +216,13 @@ FaceKind head_kind(const CellGrid& grid, const CellRange& range, bool right) {
 }
 
 FaceKind layer_kind(const CellGrid& grid, const CellRange& range, bool outer) {
-  CellRange beyond = range;
+  CellRange beyond = range;  // all wythes, then the next
+  beyond.wythe_start = outer ? range.wythe_end : 0;
+  beyond.wythe_end = outer ? grid.num_wythes : range.wythe_start;
+  const auto is_laid = [&](int row, int slice, int wythe) { return grid.owner(row, slice, wythe) != kVoid; };
+  if (!any_cell(beyond, is_laid)) return outer ? FaceKind::extrados : FaceKind::intrados;
   beyond.wythe_start = outer ? range.wythe_end : range.wythe_start - 1;
   beyond.wythe_end = beyond.wythe_start + 1;
-  if (beyond.wythe_start < 0) return FaceKind::intrados;
-  if (beyond.wythe_start == grid.num_wythes) return FaceKind::extrados;
   return face_kind(grid, range, beyond, FaceKind::wythe);
 }
 

@@ -1,6 +1,7 @@
 // Wythes: one of them changes nothing, several fill the shell or leave cavities, and their joints mate.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/loaded_faces.hpp"
 #include "tests/generators/models.hpp"
 #include "tests/test_names.hpp"
 
@@ -337,6 +339,35 @@ TEST(Wythes, BeginWithTheFirstCourse) {
     const Assembly assembly = check_and_report(*c, &report);
     EXPECT_EQ(count(assembly, "inner"), 20);
     EXPECT_EQ(report.islands, 1);
+  }
+}
+
+/// m2, of the faces of a kind, projected on the ground.
+double projected(const Assembly& assembly, FaceKind kind) {
+  double sum = 0.0;
+  for (const LoadedFace& face : faces_of_kind(assembly, std::array{kind}, 0, kLastRing, ""))
+    sum += face.area * face.normal.z();
+  return sum;
+}
+
+// A barrel of 2 m with a radius of 2 m, in 15 courses, the first three with two wythes of 0.3 m, up to 36 deg:
+// the skins go on, on the only wythe, all but their steps there.
+TEST(Wythes, ThatEndLeaveTheSkinToTheNext) {
+  VaultSurface barrel;
+  barrel.plan.kind = Plan::Kind::line;
+  barrel.plan.length = 2.0;
+  barrel.profile.span = 4.0;
+  const double step = 0.3 * std::cos(0.2 * pi);
+  for (const bool ends_outside : {true, false}) {
+    Case c;
+    c.geometry.surface = barrel;
+    const RunningBond bond{15, 2, 2};
+    c.geometry.wythes = {wythe("inner", 0.3, bond), wythe("outer", 0.3, bond)};
+    c.geometry.wythes[ends_outside ? 1 : 0].where.to = 1.2;
+    const Assembly assembly = generate(c);
+    EXPECT_NEAR(projected(assembly, FaceKind::extrados), 4.0 * (2.6 - (ends_outside ? step : 0.0)), 1e-12);
+    EXPECT_NEAR(projected(assembly, FaceKind::intrados), -4.0 * (2.0 + (ends_outside ? 0.0 : step)), 1e-12)
+        << "rounding of 60 faces, m2";
   }
 }
 
