@@ -69,6 +69,35 @@ int ring_at(const SurfaceMap& surface, double height, const char* what, const st
                   level(below), level(above)));
 }
 
+/// True if an opening or its lintel takes from the lintel of another more on one side of its middle than on
+/// the other, so that it rests on one bearing only. Of openings on one axis the upper ones cut it evenly.
+bool unbalances(const OpeningPlace& place, const OpeningPlace& lintel, double extent) {
+  const double from_middle = std::remainder(place.middle - lintel.middle, extent);
+  const double end = lintel.half_lintel - 1e-9 * extent;  // nearer edges coincide, as in lay_openings()
+  const auto cuts = [&](double half, int first_ring, int end_ring) {
+    const double left = from_middle - half, right = from_middle + half;
+    const bool overlaps =
+        first_ring < lintel.end_lintel && end_ring > lintel.first_lintel && right > -end && left < end;
+    const bool is_even = (left > -end) == (right < end) && left < 0.0 && right > 0.0;
+    return overlaps && !is_even;
+  };
+  return cuts(place.half_opening, place.first_ring, place.first_lintel) ||
+         cuts(place.half_lintel, place.first_lintel, place.end_lintel);
+}
+
+void refuse_overlaps(const std::vector<OpeningPlace>& places, const SurfaceMap& surface,
+                     const std::string& key) {
+  const OpeningPlace& last = places.back();
+  for (const OpeningPlace& other : places) {
+    if (!unbalances(last, other, surface.extent) && !unbalances(other, last, surface.extent)) continue;
+    const Vec3 at = surface.intrados(last.first_ring * surface.rows_per_ring, last.middle);
+    throw InputError(
+        fmt::format("{}: the opening about ({:.4g}, {:.4g}, {:.4g}) m or its lintel overlaps another beside "
+                    "the middle, so that a lintel rests on one side only: move one, or make it narrower",
+                    key, at.x(), at.y(), at.z()));
+  }
+}
+
 void add_places(const Openings& group, const SurfaceMap& surface, const std::string& key,
                 std::vector<OpeningPlace>* places) {
   const double top = group.sill + group.height;
@@ -96,6 +125,7 @@ void add_places(const Openings& group, const SurfaceMap& surface, const std::str
                       "there are only {:.6g} m up to a corner or the next opening",
                       key, group.width, group.bearing, whole, most));
     places->push_back({middle, half, half_range(bearing, middle, room, whole), first, lintel, end});
+    refuse_overlaps(*places, surface, key);
   }
 }
 

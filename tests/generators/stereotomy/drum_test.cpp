@@ -351,6 +351,11 @@ TEST(Drum, RefusesOpeningsWithoutRoomForTheirLintels) {
   Openings close = openings(1.2, 1.0, 1.0);
   close.at = {0.3, 0.7};  // 1.53 m apart
   EXPECT_NE(message_of(with_windows(close)).find("the next opening"), std::string::npos);
+  close.at = {0.3};
+  Case beside = with_windows(close);
+  close.at = {0.7};
+  beside.geometry.members[0].openings.push_back(close);
+  EXPECT_NE(message_of(beside).find("geometry.members[0].openings[1]: "), std::string::npos);
   Case round = with_windows(openings(1.2, 1.0, 1.0));
   round.geometry.surface = DomeSurface{kSpan, 0.8, 0.6};
   std::get<VaultSurface>(round.geometry.members[0].surface).plan.kind = Plan::Kind::circle;
