@@ -148,6 +148,16 @@ void refuse_floating(const Geometry& geometry, const Assembly& assembly, const M
                       : ""));
 }
 
+/// Refuses a member beside the one on which it stands: its other end, on a support, may hold it in the air.
+void refuse_misplaced(const std::vector<Storey>& storeys, const ModelReport& report) {
+  for (size_t i = 1; i < storeys.size(); ++i)
+    if (storeys[i].stands_on_previous && report.is_joined[i] == 0)
+      throw InputError(
+          fmt::format("{}.on = {}: nothing of {} touches {}, on whose axis it stands; an arch on two walls "
+                      "requires the plane of their `mirror` through its middle",
+                      storeys[i].key, storeys[i - 1].name, storeys[i].name, storeys[i - 1].name));
+}
+
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
   Assembly assembly = cut_blocks(storeys, cut_options(input));
   if (input.geometry.imperfections) vary_density(*input.geometry.imperfections, &assembly);
@@ -244,6 +254,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   tolerances.part_by_part = has_cuts(storeys);
   report->model = check_model(assembly, tolerances);
   refuse_floating(geometry, assembly, report->model, tolerances.joint_gap);
+  refuse_misplaced(storeys, report->model);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
   const Case resolved = resolved_case(input, assembly);
   return with_report(std::move(assembly), *report, resolved);

@@ -143,6 +143,19 @@ std::string places_of_members(const Assembly& assembly, int a, int b) {
 /// Pairs of blocks that overlap by more than the bound, and by how much (m).
 using Overlaps = std::map<std::pair<int, int>, double>;
 
+/// By sheet: true if a block has a joint with one of the sheet before. Supports do not count.
+std::vector<char> joined_sheets(const Assembly& assembly, const std::vector<std::pair<int, int>>& joints) {
+  std::vector<char> is_joined(assembly.sheets.size(), 0);
+  for (const auto& [a, b] : joints) {
+    const Sheet* low = assembly.sheet_of(assembly.blocks[a].ring);
+    const Sheet* high = assembly.sheet_of(assembly.blocks[b].ring);
+    if (!low || !high || assembly.blocks[a].fixed || assembly.blocks[b].fixed) continue;
+    if (low > high) std::swap(low, high);
+    if (high - low == 1) is_joined[high - assembly.sheets.data()] = 1;
+  }
+  return is_joined;
+}
+
 /// Names all pairs at once, the deepest first, and the margin that admits them.
 [[noreturn]] void refuse_overlaps(const Assembly& assembly, const Overlaps& overlaps,
                                   const ModelTolerances& tolerances, const Names& names) {
@@ -213,6 +226,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   std::ranges::sort(joints);
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());
+  report->is_joined = joined_sheets(assembly, joints);
   for (const NarrowJoint& joint : narrow)
     if (!std::ranges::binary_search(joints, std::pair(joint.block_a, joint.block_b)))
       report->narrow_joints.push_back(joint);

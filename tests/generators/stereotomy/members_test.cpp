@@ -384,6 +384,13 @@ TEST(Members, AreRefusedWithTheirNames) {
   Member low = tower("low", 10.0), wide = tower("wide", 20.0), beside = tower("beside", 10.0);
   wide.on = "low";
   EXPECT_NE(message_of(members_case({low, wide})).find("the member wide floats"), std::string::npos);
+  Member arch;  // from the air above the inside of the tower to a support of its own
+  arch.name = "arch";
+  arch.on = "low";
+  arch.surface = ArchSurface{.span = 3.0};
+  arch.bond = StackBond{11, 1, 1, {}};
+  EXPECT_NE(message_of(members_case({low, arch})).find("geometry.members[1].on = low: nothing of arch"),
+            std::string::npos);
   beside.at = Place{{8.0, 0.0, 0.0}, 0.0};
   EXPECT_NE(message_of(members_case({low, beside})).find("geometry.members: move one"), std::string::npos);
   Member cap = tower("cap", 10.0);
