@@ -190,7 +190,14 @@ void check_members(const std::vector<std::string>& names, const Masonry& masonry
 std::vector<std::string> member_names(const Masonry& masonry) {
   std::vector<std::string> names;
   for (const Wythe& wythe : masonry.wythes) names.push_back(wythe.name);
-  if (has_drawn_headers(masonry)) names.emplace_back(kHeaders);
+  if (has_drawn_headers(masonry)) {
+    if (std::ranges::find(names, kHeaders) != names.end())
+      throw InputError(fmt::format(
+          "geometry.wythes: no wythe can be called {}, the name of the blocks that drawings of neighbouring "
+          "wythes share; choose another",
+          kHeaders));
+    names.emplace_back(kHeaders);
+  }
   for (const Bonders& bonders : masonry.bonders)
     if (std::ranges::find(names, bonders.name) == names.end()) names.push_back(bonders.name);
   return names;

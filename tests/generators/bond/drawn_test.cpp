@@ -268,6 +268,19 @@ TEST(DrawnWythes, KeepTheirEmptyCells) {
             << ring << " " << slice << " " << wythe;
 }
 
+TEST(DrawnWythes, LeaveTheNameOfTheirHeaders) {
+  Masonry english = wythes({{"heeffggh", "aaaabbbb"}, {"heeffggh", "ccccdddd"}});
+  english.wythes[0].name = "headers";
+  try {
+    member_names(english);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("geometry.wythes: no wythe can be called headers"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(DrawnWythes, AreRefusedIfALetterGoesOnThroughThem) {
   // x steps from wythe to wythe and along, without end.
   EXPECT_THROW(make_wythe_bond(wythes({{"dddc", "xxxa"}, {"hihh", "xbxx"}}), wall(16, 4), {0, 1, 2, 3}),
