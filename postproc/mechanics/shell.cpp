@@ -221,15 +221,19 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
 
 std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) {
   std::vector<ShellAxes> axes(assembly.blocks.size());
-  std::vector<double> skin_area(axes.size(), 0.0);
+  std::vector<double> skin_area(axes.size(), 0.0), hidden_area(axes.size(), 0.0);  // m2, hidden: by wythes
   std::vector<char> has_inner(axes.size(), 0), has_outer(axes.size(), 0);
   if (shell.num_rings() == 0) return axes;
   for (const Part& part : assembly.parts) {
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       const FaceKind kind = assembly.face_kinds[f];
-      if (kind != FaceKind::intrados && kind != FaceKind::extrados) continue;
+      if (kind != FaceKind::intrados && kind != FaceKind::extrados && kind != FaceKind::wythe) continue;
       const std::vector<Vec3> polygon = face_points(assembly, f);
       const double area = polygon_area(polygon);
+      if (kind == FaceKind::wythe) {
+        hidden_area[part.block] += area;
+        continue;
+      }
       axes[part.block].n += (kind == FaceKind::extrados ? area : -area) * polygon_plane(polygon).normal;
       skin_area[part.block] += area;
       (kind == FaceKind::extrados ? has_outer : has_inner)[part.block] = 1;
@@ -248,8 +252,10 @@ std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) 
     if (a.m.norm() == 0.0) continue;
     a.m.normalize();
     a.t = a.m.cross(a.n);
-    a.thickness = has_skin ? (has_inner[b] + has_outer[b]) * block.volume / skin_area[b]  // one in a wythe
-                           : through[b].norm();
+    if (has_inner[b] && has_outer[b])  // also beside a pilaster, which hides part of a skin
+      a.thickness = 2.0 * block.volume / (skin_area[b] + hidden_area[b]);
+    else
+      a.thickness = has_skin ? block.volume / skin_area[b] : through[b].norm();
     CUPOLA_ASSERT(std::isfinite(a.thickness) && std::abs(a.t.norm() - 1.0) < 1e-9);
     a.exists = true;
   }

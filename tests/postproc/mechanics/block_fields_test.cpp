@@ -52,5 +52,15 @@ TEST(BlockFields, MoveWithTheBlocks) {
   }
 }
 
+// A second part of the stone lies under an outer wythe, the first lies bare.
+TEST(BlockFields, AStoneIsAsThickWhereAWytheHidesPartOfItsSkin) {
+  Assembly wall = test::column(2);
+  test::add_box(&wall, 1, 0, {1.2, 0.0, 0.0}, {2.4, 0.8, 0.5}, FaceKind::bed);
+  wall.face_kinds.back() = FaceKind::wythe;
+  compute_mass_properties(&wall);
+  const std::vector<ShellAxes> axes = shell_axes(wall, shell_of(wall, Vec3::UnitZ()));
+  EXPECT_NEAR(axes[1].thickness, 0.8, 1e-15) << "rounding of the volume";
+}
+
 }  // namespace
 }  // namespace cupola::block_fields_test
