@@ -25,9 +25,8 @@ double depth_below(const Plane& plane, const ConvexShape& b) {
 }
 
 /// Overlap of the projections on a unit axis, m, for B on either side.
-double depth_on_axis(const ConvexShape& a, const ConvexShape& b, const Vec3& axis) {
-  return std::min(highest(a.vertices, axis) + highest(b.vertices, -axis),
-                  highest(b.vertices, axis) + highest(a.vertices, -axis));
+double depth_on_axis(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& axis) {
+  return std::min(highest(a, axis) + highest(b, -axis), highest(b, axis) + highest(a, -axis));
 }
 
 }  // namespace
@@ -67,7 +66,7 @@ double overlap_depth(const ConvexShape& a, const ConvexShape& b, double good_eno
       const Vec3 axis = edge_a.cross(edge_b);
       const double length = axis.norm();
       if (length < kParallel) continue;
-      depth = std::min(depth, depth_on_axis(a, b, axis / length));
+      depth = std::min(depth, depth_on_axis(a.vertices, b.vertices, axis / length));
       if (depth <= good_enough) return depth;
     }
   return depth;
@@ -75,14 +74,12 @@ double overlap_depth(const ConvexShape& a, const ConvexShape& b, double good_eno
 
 double overlap_width(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal) {
   double width = std::numeric_limits<double>::infinity();
-  for (const auto& [polygon, other] : {std::pair(a, b), std::pair(b, a)})
+  for (const std::span<const Vec3> polygon : {a, b})
     for (size_t i = 0; i < polygon.size(); ++i) {
-      const Vec3 edge = polygon[(i + 1) % polygon.size()] - polygon[i];
-      Vec3 outward = edge.cross(normal).normalized();
-      if (outward.dot(polygon[(i + 2) % polygon.size()] - polygon[i]) > 0.0) outward = -outward;
-      double reach = -std::numeric_limits<double>::infinity();
-      for (const Vec3& p : other) reach = std::max(reach, -outward.dot(p - polygon[i]));
-      width = std::min(width, reach);
+      const Vec3 axis = (polygon[(i + 1) % polygon.size()] - polygon[i]).cross(normal);
+      const double length = axis.norm();
+      if (length == 0.0) continue;  // a corner that is there twice
+      width = std::min(width, depth_on_axis(a, b, axis / length));
       if (width <= 0.0) return width;
     }
   return width;

@@ -134,5 +134,16 @@ TEST(Decomposition, TwoSeparateBoxesInOneBlockAreTwoParts) {
   expect_partition(repair_mesh(boxes, 1e-6), 3.0, 2);
 }
 
+// The facets of Nef polyhedra have corners inside their edges, which rounding moves to either side of these.
+TEST(Separation, CornersInsideAnEdgeLeaveTheWidthOfAPolygon) {
+  for (int turn = 1; turn <= 20; ++turn) {
+    const Eigen::AngleAxisd rotation(0.3 * turn, Vec3(1.0, 2.0, -turn).normalized());
+    std::vector<Vec3> polygon{{0, 0, 0}, {0.4, 0, 0}, {1.1, 0, 0}, {1.5, 0, 0}, {1.5, 0.5, 0}, {0, 0.5, 0}};
+    for (Vec3& x : polygon) x = rotation * x + Vec3(100.0, 50.0, 3.0);
+    // 1e-12 m: a few roundings of coordinates of 100 m.
+    EXPECT_NEAR(overlap_width(polygon, polygon, rotation * Vec3::UnitZ()), 0.5, 1e-12) << turn;
+  }
+}
+
 }  // namespace
 }  // namespace cupola::decomposition_test
