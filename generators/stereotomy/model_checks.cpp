@@ -196,7 +196,6 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
     const int a = std::min(assembly.parts[p].block, assembly.parts[q].block);
     const int b = std::max(assembly.parts[p].block, assembly.parts[q].block);
     const auto is_ground = [&](int block) { return assembly.blocks[block].kind == BlockKind::support; };
-    if (a == b && tolerances.part_by_part) return;       // the surface was checked as read
     if (a != b && is_ground(a) && is_ground(b)) return;  // supports of two members may overlap
     const double depth = overlap_depth(shapes[p], shapes[q], good_enough);
     if (a == b) {

@@ -72,6 +72,16 @@ TEST_F(Import, RefusesForcesOfBricks) {
       << pushed;
 }
 
+// A stone of two boxes that share a cube would weigh it twice.
+TEST_F(Import, RefusesPartsOfABrickThatOverlap) {
+  const std::string lying = "0,0,0,2,0,0,2,1,0,0,1,0,0,0,1,2,0,1,2,1,1,0,1,1",
+                    upright = "0,0,0,1,0,0,1,1,0,0,1,0,0,0,2,1,0,2,1,1,2,0,1,2";
+  const std::string found =
+      complaint(write("l.csv", "2,0,1,0,2000,0,0,0,0,0,0," + lying + ",9999," + upright + "\n"));
+  EXPECT_NE(found.find("l.csv:1: error: block 2: two of its parts overlap by 1 m"), std::string::npos)
+      << found;
+}
+
 // Boxes on each other: the second reaches 0.02 m into the first, and the third 0.05 m into the second.
 TEST_F(Import, NamesAllOverlapsAtOnceWithTheMarginThatAdmitsThem) {
   const std::string text = obj_box("a", 0, 0, 1) + obj_box("b", 0, 0.98, 9) + obj_box("c", 0, 1.93, 17);
