@@ -92,13 +92,18 @@ int drop_doubled_faces(PolygonMesh* mesh) {
   return static_cast<int>(std::erase_if(mesh->faces, [&](const auto& face) { return !is_new(face); }));
 }
 
+bool has_corner_twice(std::vector<int> face) {
+  std::ranges::sort(face);
+  return std::ranges::adjacent_find(face) != face.end();
+}
+
 /// The surface as a soup of triangles. A face that triangulate_polygon() cannot split remains a polygon.
 struct Soup {
   Polygons polygons;
   std::vector<int> face;  // of the file, per polygon
 };
 
-Soup triangle_soup(const PolygonMesh& mesh) {
+Soup triangle_soup(const RawBlock& block, const PolygonMesh& mesh) {
   Soup soup;
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
     const std::vector<int>& face = mesh.faces[f];
@@ -108,6 +113,8 @@ Soup triangle_soup(const PolygonMesh& mesh) {
     for (const auto& t : triangles)
       soup.polygons.push_back({static_cast<std::size_t>(face[t[0]]), static_cast<std::size_t>(face[t[1]]),
                                static_cast<std::size_t>(face[t[2]])});
+    if (triangles.empty() && has_corner_twice(face))  // orient_polygon_soup() would not return
+      fail(block, "a face passes through a corner twice: divide it");
     if (triangles.empty()) soup.polygons.emplace_back(face.begin(), face.end());
     soup.face.resize(soup.polygons.size(), static_cast<int>(f));
   }
@@ -148,7 +155,7 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
   if (welded.faces.empty()) fail(block, "all faces have zero area");
   std::vector<Point> points;
   for (const Vec3& v : welded.vertices) points.emplace_back(v.x(), v.y(), v.z());
-  Soup soup = triangle_soup(welded);
+  Soup soup = triangle_soup(block, welded);
   const bool consistent = pmp::is_polygon_soup_a_polygon_mesh(soup.polygons);
   if (!consistent && !pmp::orient_polygon_soup(points, soup.polygons))
     fail(block, "its faces do not form a manifold surface");

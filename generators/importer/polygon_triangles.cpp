@@ -1,7 +1,10 @@
 #include "generators/importer/polygon_triangles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
+#include <utility>
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -18,6 +21,7 @@ using PlaneCells =
                                          CGAL::Constrained_triangulation_face_base_2<ProjectionTraits>>;
 using PlaneTriangulation = CGAL::Constrained_Delaunay_triangulation_2<ProjectionTraits, PlaneCells,
                                                                       CGAL::No_constraint_intersection_tag>;
+using Vertex = PlaneTriangulation::Vertex_handle;
 
 /// The corners as a cycle that a polygon and its reverse share: from the least corner (by x, y, z) towards
 /// the lesser of its neighbours.
@@ -36,6 +40,20 @@ CommonCycle common_cycle(std::span<const Vec3> corners) {
   cycle.reversed = key((least + n - 1) % n) < key((least + 1) % n);
   for (int i = 0; i < n; ++i) cycle.order.push_back((least + (cycle.reversed ? n - i : i)) % n);
   return cycle;
+}
+
+/// The sides of the cycle without those that it passes in both directions, such as the bridge to a hole.
+std::vector<std::pair<Vertex, Vertex>> sides_of(const std::vector<Vertex>& cycle) {
+  std::vector<std::pair<Vertex, Vertex>> sides;
+  for (size_t i = 0; i < cycle.size(); ++i) {
+    const Vertex from = cycle[i], to = cycle[(i + 1) % cycle.size()];
+    const auto reverse = std::ranges::find(sides, std::pair(to, from));
+    if (reverse == sides.end())
+      sides.emplace_back(from, to);
+    else
+      sides.erase(reverse);
+  }
+  return sides;
 }
 
 /// The faces inside the constrained edges: those that an odd number of edges separates from infinity.
@@ -63,19 +81,20 @@ std::vector<std::array<int, 3>> triangulate_polygon(std::span<const Vec3> corner
   const Vec3 normal = polygon_plane(polygon).normal;
   if (!normal.allFinite() || normal.isZero()) return {};
   PlaneTriangulation triangulation(ProjectionTraits({normal.x(), normal.y(), normal.z()}));
-  std::vector<PlaneTriangulation::Vertex_handle> vertices;
+  std::vector<Vertex> vertices;
   std::vector<std::array<int, 3>> triangles;
   try {
     for (int i : cycle.order) {
       vertices.push_back(triangulation.insert({corners[i].x(), corners[i].y(), corners[i].z()}));
       vertices.back()->info() = i;
     }
-    for (size_t i = 0; i < vertices.size(); ++i)
-      triangulation.insert_constraint(vertices[i], vertices[(i + 1) % vertices.size()]);
+    for (const auto& [from, to] : sides_of(vertices)) triangulation.insert_constraint(from, to);
   } catch (const PlaneTriangulation::Intersection_of_constraints_exception&) {
     return {};
   }
-  if (triangulation.dimension() < 2 || triangulation.number_of_vertices() < corners.size()) return {};
+  std::set<std::array<double, 3>> distinct;
+  for (const Vec3& p : corners) distinct.insert({p.x(), p.y(), p.z()});
+  if (triangulation.dimension() < 2 || triangulation.number_of_vertices() < distinct.size()) return {};
   for (const auto face : faces_inside(triangulation)) {
     std::array<int, 3> t{face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()};
     if (cycle.reversed) std::swap(t[1], t[2]);

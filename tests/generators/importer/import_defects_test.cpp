@@ -72,6 +72,15 @@ TEST_F(Import, RefusesForcesOfBricks) {
       << pushed;
 }
 
+// The lid runs back and forth along one of its edges.
+TEST_F(Import, RefusesAFaceThatPassesACornerTwice) {
+  std::string box = obj_box("a", 0, 0, 1);
+  const std::string lid = "f 5 6 7 8";
+  box.replace(box.find(lid), lid.size(), "f 5 6 7 6 7 8");
+  const std::string found = complaint(write("spike.obj", box));
+  EXPECT_NE(found.find("block a: a face passes through a corner twice"), std::string::npos) << found;
+}
+
 // A stone of two boxes that share a cube would weigh it twice.
 TEST_F(Import, RefusesPartsOfABrickThatOverlap) {
   const std::string lying = "0,0,0,2,0,0,2,1,0,0,1,0,0,0,1,2,0,1,2,1,1,0,1,1",

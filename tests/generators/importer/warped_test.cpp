@@ -214,6 +214,22 @@ TEST(PolygonTriangles, AreThoseOfTheReversedPolygon) {
   }
 }
 
+// A square with a square hole, as one polygon with a bridge between both, which it passes in both directions.
+TEST(PolygonTriangles, LeaveAHoleOpen) {
+  std::vector<Vec3> polygon{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0},
+                            {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}};
+  for (int side = 0; side < 2; ++side) {
+    double area = 0.0;
+    for (const auto& t : triangulate_polygon(polygon)) {
+      const Vec3 twice = (polygon[t[1]] - polygon[t[0]]).cross(polygon[t[2]] - polygon[t[0]]);
+      EXPECT_GT(twice.z() * (side == 0 ? 1.0 : -1.0), 0.0);
+      area += 0.5 * twice.norm();
+    }
+    EXPECT_NEAR(area, 8.0, 1e-12);
+    std::ranges::reverse(polygon);
+  }
+}
+
 // A fan from the first corner of this warped polygon crosses itself; its Delaunay triangles do not.
 TEST(PolygonTriangles, DoNotCrossWhereAFanDoes) {
   const std::vector<Vec3> polygon{{0, 0, 0}, {1, 0.001, 0}, {2, 0, 0.002}, {2, 1, 0}, {0, 1, 0.001}};
