@@ -237,7 +237,7 @@ std::optional<double> snap_from_gaps(const std::vector<TriangleMesh>& blocks,
   for (size_t i = 0; i < errors.size(); ++i) {
     const double size = errors[i].size;
     (errors[i].overlaps ? overlap : gap) = size;
-    distance = std::max({distance, errors[i].distance, kJump * size});
+    distance = std::max({distance, errors[i].distance, size});
     const double next = i + 1 < errors.size() ? errors[i + 1].size : largest;
     if (kJump * size <= std::min(next, largest) && overlap >= kBalance * gap) snap = kCovered * distance;
   }

@@ -21,10 +21,11 @@ int snap_facets(std::vector<TriangleMesh>* blocks, const DecompositionOptions& o
 
 /// A distance (m) for snap_facets that covers the errors of a drawing whose faces are plane and in the wrong
 /// place, as rounded coordinates make them. An error is the largest distance of a corner from the common
-/// plane of two facets that face each other within `largest` (m). The distance is twice the largest error
-/// that the next one, and `largest`, exceed by a factor of two, and up to which facets overlap about as far
-/// as they gape: errors do both, and openings that were drawn overlap nowhere. It is a little more, so that
-/// the facets of these errors face each other within it. None if there is no such error.
+/// plane of two facets that face each other within `largest` (m). The distance is how far apart facets are
+/// drawn up to the largest error that the next one, and `largest`, exceed by a factor of two, and up to which
+/// facets overlap about as far as they gape: errors do both, and openings that were drawn overlap nowhere. It
+/// is a little more, so that the facets of these errors face each other within it. None if there is no such
+/// error.
 std::optional<double> snap_from_gaps(const std::vector<TriangleMesh>& blocks,
                                      const DecompositionOptions& options, double largest);
 

@@ -45,6 +45,24 @@ TEST_F(Import, ClosesGapsAndOverlapsOfRoundedCoordinates) {
   EXPECT_LT(report.model.max_joint_gap, 1e-12);
 }
 
+// On a ground of 3 x 3 m the base of a stone of 1 x 1 m is most of the gap from their common plane.
+TEST_F(Import, SnapsByTheWidestGapWhateverTheAreas) {
+  const auto box = [](const char* name, double x, double size, double low, double high) {
+    return prism({{x, low}, {x + size, low}, {x + size, high}, {x, high}}, size, name);
+  };
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path =
+      write("stones.obj", obj_of({box("ground", -1, 3, -1, 0), box("1", 0, 1, -2e-3, 1),
+                                  box("2", 0, 1, 1.002, 2), box("3", 0, 1, 2, 3)}));
+  scene.geometry.imported->supports = {"ground"};
+  GenerateReport report;
+  generate(scene, &report);
+  EXPECT_NEAR(report.import->snap, 2e-3, 1e-5);  // as above
+  EXPECT_LT(report.model.max_overlap, 1e-12);
+  EXPECT_LT(report.model.max_joint_gap, 1e-12);
+}
+
 /// A box whose base rises by `wedge` (m) towards x = 1 and whose top by `lift` at one corner.
 std::string wedged_box(const std::string& name, double z, double wedge, int first, double lift = 0.0) {
   std::string text = "o " + name + "\n";
