@@ -10,8 +10,8 @@
 namespace cupola {
 namespace {
 
-/// What is added to the diagonal of J where full directions do not reduce |F|: a block whose contacts all slide
-/// has no stiffness along a direction in which the smallest motion makes some of them stick.
+/// What is added to the diagonal of J where full directions do not reduce |F|: a block whose contacts all
+/// slide has no stiffness along a direction in which the smallest motion makes some of them stick.
 class Damping {
  public:
   double value() const { return value_; }
@@ -145,7 +145,8 @@ bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& ac
     if (accuracy.inexact_directions && damping.value() == 0.0)
       forcing = std::clamp(0.3 * accuracy.tolerance / largest_block_norm(F), 1e-2, 0.1);
     VecX d;
-    if (!direction->solve(sub.stiffnesses(point->y), F, {forcing, damping.value()}, &d, summary)) return false;
+    if (!direction->solve(sub.stiffnesses(point->y), F, {forcing, damping.value()}, &d, summary))
+      return false;
     CoulombPoint trial;
     double t = 2.0;
     do {  // halved until |F| decreases: the map has kinks, so its slope is unreliable
