@@ -27,7 +27,7 @@ class CoulombDirection {
         last_(lu->has_factor() ? Factor::unsymmetric : Factor::none) {}
 
   struct Accuracy {
-    std::optional<double> forcing;
+    std::optional<double> forcing = std::nullopt;
     double damping = 0.0;  ///< added to the diagonal of J; without forcing only
   };
 

@@ -46,7 +46,7 @@ struct Solved {
 Solved solve(const System& s, std::optional<double> forcing, CoulombDirection* direction) {
   Solved solved;
   VecX d;
-  EXPECT_TRUE(direction->solve(s.G, s.F, forcing, &d, &solved.summary));
+  EXPECT_TRUE(direction->solve(s.G, s.F, {.forcing = forcing}, &d, &solved.summary));
   const UnsymmetricBlockMatrix J = ContactJacobian(s.white, s.graph).at(s.G);
   solved.residual = (multiply(s.graph.pattern, J, d) - s.F).norm() / s.F.norm();
   return solved;
@@ -58,6 +58,19 @@ void factorize_sticking(const System& s, CoulombDirection* direction) {
   VecX d;
   const std::vector<Mat3> G(s.G.size(), Mat3::Identity());
   ASSERT_TRUE(direction->solve_symmetric(G, s.F, &d, &summary));
+}
+
+TEST(CoulombDirection, AddsTheDampingToTheDiagonal) {
+  const System system(0.4, 1);
+  constexpr double damping = 100.0;
+  BlockLu lu;
+  CoulombDirection direction(system.white, system.graph, &lu);
+  SolveSummary summary;
+  VecX d;
+  ASSERT_TRUE(direction.solve(system.G, system.F, {.damping = damping}, &d, &summary));
+  const UnsymmetricBlockMatrix J = ContactJacobian(system.white, system.graph).at(system.G);
+  const VecX error = multiply(system.graph.pattern, J, d) + damping * d - system.F;
+  EXPECT_LE(error.norm(), 1e-11 * system.F.norm());  // condition about 1e2
 }
 
 // Up to friction 5 the matrices are far from symmetric, and those of friction 0 are symmetric.
