@@ -171,7 +171,8 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit("warnings", "", "doubts about the case and the blocks, one sentence each", s.warnings);
   visit("ranges", "", "range analysis only: one entry per quantity, see below", s.ranges);
   visit("parts", "",
-        "static analysis without an equilibrium of the whole, of several parts that no contact connects, see "
+        "static analysis without an equilibrium of the whole, of several parts that no contact or tie "
+        "connects, see "
         "below",
         s.parts);
   visit("text_files", "", "`run.yaml` and the `.csv` files of this run: name to XXH3-128 hash of the bytes",

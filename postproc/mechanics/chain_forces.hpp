@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/case/case.hpp"
+#include "assembly/model/loads.hpp"
 #include "assembly/model/results.hpp"
 
 namespace cupola {
