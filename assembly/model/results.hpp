@@ -48,7 +48,7 @@ struct ContactTable {
   std::vector<Vec3> force;           ///< N, world axes, acting on b
   std::vector<double> normal_force;  ///< N, >= 0 in dry joints
   std::vector<double> friction_use;  ///< |tangential force| / (cohesion + mu normal force); 0 without force
-  std::vector<double> area;          ///< m2, tributary area of the point
+  std::vector<double> area;          ///< m2, tributary area of the point; 0 on an edge or at a corner
   std::vector<double> slip;          ///< m, accumulated sliding
   /// Error of the force in the contact law, over the force of the joint; NaN where both blocks sleep.
   std::vector<double> law_violation;

@@ -118,6 +118,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
                     const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0), moment(ring_area);  // m2, and m3 of heights
+  std::vector<char> is_carried(from_below.size(), 0);
   for (const JointWrench& joint : joints.wrenches) {
     if (const auto springer = on_other_stack(assembly, joint); springer && joint.carried < 0) {
       const int k = ring_above_support(assembly.blocks[*springer]);
@@ -125,6 +126,7 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     }
     const int carried = joint.carried;
     if (carried < 0 || assembly.blocks[carried].fixed) continue;
+    is_carried[carried] = 1;
     normal_force[carried] += joint.normal_force;
     area[carried] += joint.area;
     const int k = ring_above_support(assembly.blocks[carried]);
@@ -139,10 +141,10 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {
-    if (assembly.blocks[b].fixed || area[b] <= 0.0) continue;
+    if (is_carried[b] == 0) continue;
     const int k = ring_above_support(assembly.blocks[b]);
     resultants[k].push_back(from_below[b].force.norm());
-    pressures[k].push_back(normal_force[b] / area[b]);
+    if (area[b] > 0.0) pressures[k].push_back(normal_force[b] / area[b]);
     RingSum& ring = (*rings)[k];
     ring.mean_resultant += resultants[k].back();
     ring.largest_couple_length =

@@ -63,6 +63,7 @@ std::vector<JointPatch> clip_blocks(const CollisionModel& model, int block_a, in
     }
   }
   merge_coplanar(&patches, 10.0 * options.tolerance);
+  drop_held_edges(options, &patches);
   return patches;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "solver/collision/joint_patch.hpp"
 
@@ -22,9 +23,14 @@ namespace cupola {
 /// - the gap exceeds the margin;
 /// - the face is within max_angle of a face of the other part, which clip_opposed_faces() handles;
 /// - the face is `internal`;
-/// - the parts only meet along a border: all points lie within min_width of one edge of the face.
+/// - the parts only meet along a border: all points lie within min_width of one edge of the face, and the
+///   surface of the block goes on neither in its plane nor, at a re-entrant edge, in front of it.
 std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int part_a, int part_b,
                                             const Eigen::Isometry3d& pose_ab,
                                             const NarrowPhaseOptions& options);
+
+/// Drops the edge and vertex contacts of two blocks whose points lie in a patch of about the same normal, as
+/// where the edge of one part is the border of the next.
+void drop_held_edges(const NarrowPhaseOptions& options, std::vector<JointPatch>* patches);
 
 }  // namespace cupola

@@ -1,6 +1,7 @@
 #include "solver/collision/joint_patch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -8,6 +9,8 @@
 
 namespace cupola {
 namespace {
+
+constexpr double kSameNormal = 1.0 - 1e-9;  // cosine: 4.5e-5 rad
 
 bool lies_on(const Plane& plane, const Vec3& x, double tolerance) {
   return std::abs(plane.normal.dot(x) - plane.offset) <= tolerance;
@@ -45,6 +48,34 @@ std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q,
   const double missing =
       polygon_area(joined.outline()) - polygon_area(p.outline()) - polygon_area(q.outline());
   if (missing > 4.0 * tolerance * perimeter(joined.outline())) return std::nullopt;
+  return joined;
+}
+
+/// The union of two edge contacts in one line that meet or overlap.
+std::optional<JointPatch> collinear_union(const JointPatch& p, const JointPatch& q, double tolerance) {
+  if (p.touching.size() != 2 || q.touching.size() != 2 || p.kind != q.kind || p.ring != q.ring ||
+      p.normal.dot(q.normal) < kSameNormal)
+    return std::nullopt;
+  const Vec3 start = p.touching[0].on_a, line = p.touching[1].on_a - start;
+  const double length = line.norm();
+  const auto along = [&](const LiftedPoint& x) { return line.dot(x.on_a - start) / length; };
+  const auto off_line = [&](const LiftedPoint& x) {
+    return (x.on_a - start - along(x) / length * line).norm() > tolerance;
+  };
+  const auto [low, high] = std::minmax({along(q.touching[0]), along(q.touching[1])});
+  if (low > length + tolerance || high < -tolerance || std::ranges::any_of(q.touching, off_line))
+    return std::nullopt;
+  JointPatch joined = p;
+  std::array<double, 2> ends{0.0, length};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double s = along(q.touching[i]);
+    if (s >= ends[0] && s <= ends[1]) continue;
+    const std::size_t end = s < ends[0] ? 0 : 1;
+    ends[end] = s;
+    joined.touching[end] = q.touching[i];
+    joined.corners[end] = {p.project(q.touching[i].on_a), q.corners[i].normal};
+  }
+  joined.min_gap = std::min(p.min_gap, q.min_gap);
   return joined;
 }
 
@@ -99,13 +130,13 @@ void merge_coplanar(std::vector<JointPatch>* patches, double tolerance) {
     for (std::size_t k = i + 1; k < patches->size();) {
       const JointPatch& p = (*patches)[i];
       const JointPatch& q = (*patches)[k];
-      std::optional<JointPatch> joined;
-      if (coplanar(p, q, tolerance)) joined = convex_union(p, q, tolerance);
+      const std::optional<JointPatch> joined =
+          coplanar(p, q, tolerance) ? convex_union(p, q, tolerance) : collinear_union(p, q, tolerance);
       if (!joined) {
         ++k;
         continue;
       }
-      (*patches)[i] = std::move(*joined);
+      (*patches)[i] = *joined;
       patches->erase(patches->begin() + static_cast<std::ptrdiff_t>(k));
       k = i + 1;  // patches rejected before may fit the larger patch
     }

@@ -65,8 +65,8 @@ void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart&
               JointPatch* patch);
 
 /// Merges patches of one block pair that have the same kind and ring, lie in one plane and have a convex
-/// union. Cutting a block into slices therefore does not change its joints. A merged patch takes the identity
-/// of its first piece.
+/// union, and edge contacts that meet in one line. Cutting a block into slices therefore does not change its
+/// joints. A merged patch takes the identity of its first piece.
 void merge_coplanar(std::vector<JointPatch>* patches, double tolerance);
 
 }  // namespace cupola

@@ -1,6 +1,7 @@
 #include "solver/collision/separating_axis.hpp"
 
 #include <algorithm>
+#include <functional>
 
 namespace cupola {
 namespace {
@@ -19,6 +20,20 @@ double lowest(const std::vector<Vec3>& vertices, const Vec3& direction) {
   double height = std::numeric_limits<double>::infinity();
   for (const Vec3& x : vertices) height = std::min(height, direction.dot(x));
   return height;
+}
+
+/// The axes along the face normals of both parts, until `visit` returns false.
+template <class Visit>
+void visit_face_axes(const TwoParts& parts, const Visit& visit) {
+  for (const CollisionFace& face : parts.model.faces_of(parts.a)) {
+    const double gap = lowest(parts.vertices_b, face.normal) - face.normal.dot(face.centroid);
+    if (!visit(axis_along(face.normal, gap, &face, nullptr))) return;
+  }
+  for (const CollisionFace& face : parts.model.faces_of(parts.b)) {
+    const Vec3 outward = parts.pose_ab.linear() * face.normal;
+    const double gap = lowest(parts.vertices_a, outward) - outward.dot(parts.pose_ab * face.centroid);
+    if (!visit(axis_along(-outward, gap, nullptr, &face))) return;
+  }
 }
 
 /// Nearest points of the lines of two edges p + s d and q + t e, which must not be parallel. False when one
@@ -49,18 +64,21 @@ TwoParts place_parts(const CollisionModel& model, int part_a, int part_b, const 
 
 SeparatingAxis best_face_axis(const TwoParts& parts, double margin) {
   SeparatingAxis best;
-  for (const CollisionFace& face : parts.model.faces_of(parts.a)) {
-    const double gap = lowest(parts.vertices_b, face.normal) - face.normal.dot(face.centroid);
-    if (gap > best.gap) best = axis_along(face.normal, gap, &face, nullptr);
-    if (best.gap > margin) return best;
-  }
-  for (const CollisionFace& face : parts.model.faces_of(parts.b)) {
-    const Vec3 outward = parts.pose_ab.linear() * face.normal;
-    const double gap = lowest(parts.vertices_a, outward) - outward.dot(parts.pose_ab * face.centroid);
-    if (gap > best.gap) best = axis_along(-outward, gap, nullptr, &face);
-    if (best.gap > margin) return best;
-  }
+  visit_face_axes(parts, [&](const SeparatingAxis& axis) {
+    if (axis.gap > best.gap) best = axis;
+    return best.gap <= margin;
+  });
   return best;
+}
+
+std::vector<SeparatingAxis> face_axes_above(const TwoParts& parts, double gap) {
+  std::vector<SeparatingAxis> axes;
+  visit_face_axes(parts, [&](const SeparatingAxis& axis) {
+    if (axis.gap > gap) axes.push_back(axis);
+    return true;
+  });
+  std::ranges::stable_sort(axes, std::greater(), &SeparatingAxis::gap);
+  return axes;
 }
 
 SeparatingAxis best_edge_axis(const TwoParts& parts, const NarrowPhaseOptions& options) {

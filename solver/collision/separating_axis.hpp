@@ -31,6 +31,10 @@ struct SeparatingAxis {
 /// more than the margin.
 SeparatingAxis best_face_axis(const TwoParts& parts, double margin);
 
+/// The face normals of both parts with a larger gap than `gap` (m), the largest first. Parts that meet in an
+/// edge have several of almost the same gap.
+std::vector<SeparatingAxis> face_axes_above(const TwoParts& parts, double gap);
+
 /// The common normal with the largest gap of two edges, each the outermost of its part along that normal.
 SeparatingAxis best_edge_axis(const TwoParts& parts, const NarrowPhaseOptions& options);
 

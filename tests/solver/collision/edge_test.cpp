@@ -185,9 +185,9 @@ TEST(EdgeContact, RandomBoxesAgreeWithSampledDistance) {
   EXPECT_GT(near, 10);
 }
 
-/// A block between y = 0 and 1 with the outline (x, z), counter-clockwise as seen from -y.
-void add_prism(const std::vector<Vec2>& outline, bool fixed, Assembly* assembly) {
-  add_block({.fixed = fixed}, assembly);
+/// Adds a part to the last block, between y = from and to, with the outline (x, z), counter-clockwise as seen
+/// from -y.
+void add_prism_part(const std::vector<Vec2>& outline, double from, double to, Assembly* assembly) {
   Part part;
   part.block = static_cast<int>(assembly->blocks.size()) - 1;
   part.face_start = assembly->num_faces();
@@ -195,7 +195,7 @@ void add_prism(const std::vector<Vec2>& outline, bool fixed, Assembly* assembly)
   const int first = static_cast<int>(assembly->vertices.size()), n = static_cast<int>(outline.size());
   std::vector<int> front, back;
   for (int i = 0; i < n; ++i) {
-    for (const double y : {0.0, 1.0}) assembly->vertices.emplace_back(outline[i].x(), y, outline[i].y());
+    for (const double y : {from, to}) assembly->vertices.emplace_back(outline[i].x(), y, outline[i].y());
     front.push_back(first + 2 * i);
     back.insert(back.begin(), first + 2 * i + 1);
     const int next = (i + 1) % n;
@@ -204,6 +204,11 @@ void add_prism(const std::vector<Vec2>& outline, bool fixed, Assembly* assembly)
   }
   assembly->add_face(front, FaceKind::head);
   assembly->add_face(back, FaceKind::head);
+}
+
+void add_prism(const std::vector<Vec2>& outline, bool fixed, Assembly* assembly) {
+  add_block({.fixed = fixed}, assembly);
+  add_prism_part(outline, 0.0, 1.0, assembly);
 }
 
 // The bottom of a stone on a slope is parallel to it from x = 1 to 2, and level from 0.4 to 1, where it hangs
@@ -236,6 +241,72 @@ TEST(EdgeContact, OfFacesThatMeetInAnEdgeTheParallelOneIsTheJoint) {
             EXPECT_NEAR(set.patches[0].area, std::hypot(1.0, t), 1e-12 + 4.0 * rounding)
                 << slope << " " << shift << " " << stone_first << " " << mirror << " " << rounding;
           }
+}
+
+// A stone whose underside is a roof lies on one slope of it, and its ridge hooks over the edge of the support:
+// that presses on the other slope. However the stone is split, and mirrored.
+TEST(EdgeContact, AtAReentrantEdgeDependsOnNoSplit) {
+  using Outlines = std::vector<std::vector<Vec2>>;
+  const Outlines left_plane_continued{{{0, 0}, {2, 1.2}, {2, 1.6}, {0, 1.6}}, {{1, 0.6}, {2, 0}, {2, 1.2}}};
+  const Outlines right_plane_continued{{{2, 0}, {2, 1.6}, {0, 1.6}, {0, 1.2}}, {{0, 0}, {1, 0.6}, {0, 1.2}}};
+  const Outlines upright{{{0, 0}, {1, 0.6}, {1, 1.6}, {0, 1.6}}, {{1, 0.6}, {2, 0}, {2, 1.6}, {1, 1.6}}};
+  const std::vector<Vec2> under_left{{0, -1}, {1, -1}, {1, 0.6}, {0, 0}};
+  for (const Outlines& parts : {left_plane_continued, right_plane_continued, upright})
+    for (const bool mirrored : {false, true})
+      for (const std::vector<double>& slices : {std::vector<double>{0, 1}, {0, 0.3, 1}}) {
+        std::vector<Vec2> support = under_left;
+        for (Vec2& corner : support)
+          if (mirrored) corner.x() = 2.0 - corner.x();
+        if (mirrored) std::ranges::reverse(support);
+        Assembly scene;
+        add_prism(support, true, &scene);
+        add_block({}, &scene);
+        for (std::size_t i = 0; i + 1 < slices.size(); ++i)
+          for (const auto& part : parts) add_prism_part(part, slices[i], slices[i + 1], &scene);
+        compute_mass_properties(&scene);
+        const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
+        ASSERT_EQ(set.patches.size(), 2u);
+        const int edge = set.patches[0].area == 0.0 ? 0 : 1;
+        EXPECT_NEAR(set.patches[1 - edge].area, std::hypot(1.0, 0.6), 1e-12);  // rounding, also below
+        ASSERT_EQ(set.points.size(), 6u);
+        for (const Contact& contact : set.points) {
+          if (contact.patch != edge) continue;
+          EXPECT_LT((contact.point_a - Vec3(1.0, std::round(contact.point_a.y()), 0.6)).norm(), 1e-12);
+          EXPECT_LT((contact.normal - Vec3(mirrored ? -0.6 : 0.6, 0, 1).normalized()).norm(), 1e-12);
+        }
+      }
+}
+
+// A stone slides over the border between both parts of its support, in which it sinks a little. Its sides
+// pass the sides of the parts inside the support, where there is nothing to press against.
+TEST(EdgeContact, AStoneSlidesOverPartsOfItsSupport) {
+  for (const double overhang : {-0.4, 0.0, 0.4})
+    for (const double split : {-0.5, 0.0, 0.5})
+      for (const double depth : {0.0, 1e-6, 1e-4, 2e-3})
+        for (const double along : {-1e-2, -1e-3, -1e-5, 0.0, 1e-5, 1e-3, 1e-2})
+          for (const bool stone_first : {false, true})
+            for (const double y : {0.0, 0.7}) {
+              const std::vector<Vec2> stone{{along, -depth},
+                                            {along + 1, -depth},
+                                            {along + 1 + overhang, 1 - depth},
+                                            {along + overhang, 1 - depth}};
+              Assembly scene;
+              const auto add_stone = [&] {
+                add_block({}, &scene);
+                add_prism_part(stone, y, y + 0.5, &scene);
+              };
+              if (stone_first) add_stone();
+              add_prism({{-2, -1}, {split, -1}, {0, 0}, {-2, 0}}, true, &scene);
+              add_prism_part({{split, -1}, {2, -1}, {2, 0}, {0, 0}}, 0.0, 1.0, &scene);
+              if (!stone_first) add_stone();
+              compute_mass_properties(&scene);
+              const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
+              EXPECT_FALSE(set.points.empty());
+              for (const Contact& contact : set.points)
+                EXPECT_GT(std::abs(contact.normal.z()), 1.0 - 1e-9)
+                    << overhang << " " << split << " " << depth << " " << along << " " << stone_first << " "
+                    << y << ": " << contact.normal.transpose();
+            }
 }
 
 }  // namespace
