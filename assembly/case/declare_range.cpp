@@ -24,7 +24,8 @@ void declare_reaction(Section& s, BlockReaction& reaction) {
   s.required_block("block", reaction.block, "number or name of a block on supports, or of a support");
   s.choice("component", reaction.component,
            "of the force on the supports: vertical (downwards) or outward (from the axis of the vault)");
-  s.optional_vector3("direction", reaction.direction, {}, "component", "instead of a component");
+  s.optional_vector3("direction", reaction.direction, {}, "component",
+                     "instead of a component, of any length");
 }
 
 void declare_joint(Section& s, JointForce& joint) {

@@ -61,7 +61,7 @@ RangeObjective objective_of(const JointForce& joint, const ForceScene& scene) {
     return {name, "m", moment, pressure.value};
   }
   const Vec3 direction = joint.component == shear ? in_plane(joint, pair, scene)
-                         : joint.direction        ? *joint.direction
+                         : joint.direction        ? joint.direction->normalized()
                                                   : outward_at_joint(joint, pair, scene);
   ForceFunctional force = scene.zero();
   scene.add(pair, joint.block_b, direction, &force);

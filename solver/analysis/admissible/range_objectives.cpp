@@ -134,14 +134,15 @@ std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
 std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction) const {
   check_block(scene_.assembly, reaction.block);
   const bool vertical = reaction.component == BlockReaction::Component::vertical;
+  const Vec3 unit = reaction.direction ? reaction.direction->normalized() : kDown;
+  const bool outward = !reaction.direction && !vertical;
   const auto direction = [&](const Vec3& point, int block) {
-    if (reaction.direction) return *reaction.direction;
-    return vertical ? kDown : scene_.joints.outward(point, block);
+    return outward ? scene_.joints.outward(point, block) : unit;
   };
   if (!scene_.fixed(reaction.block)) base_blocks({BaseBlocks::Group::listed, {reaction.block}});
   ForceFunctional f = on_supports({reaction.block}, direction);
   // Outward counts joints alone, as reactions.csv does.
-  if (reaction.direction || vertical) add_anchored(reaction.block, reaction.direction.value_or(kDown), &f);
+  if (!outward) add_anchored(reaction.block, unit, &f);
   const std::string name = fmt::format(
       "{}reaction of block {}{}", reaction.direction ? "" : fmt::format("{} ", to_string(reaction.component)),
       scene_.label(reaction.block), along_text(reaction.direction));

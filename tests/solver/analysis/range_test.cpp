@@ -286,6 +286,20 @@ TEST(Range, NamesTheDirectionOfAJoint) {
   EXPECT_EQ(ranges[2].quantity, "shear of joint 0-1 along (0, 1, 0)");
 }
 
+// A component of a force does not depend on the length of the vector that names its direction.
+TEST(Range, DirectionsAreOfAnyLength) {
+  using enum JointForce::Component;
+  const Assembly box = testing::box_on_floor({1, 1, 1});
+  const double weight = weight_of(box);
+  const std::vector<ForceRange> ranges =
+      ranges_of(
+          range_case(0.4, {joint(0, 1, resultant, Vec3(0, 0, 5)), BlockReaction{0, {}, Vec3(0, 0, -0.2)}}),
+          box)
+          .ranges;
+  ASSERT_EQ(ranges.size(), 2u);
+  for (const ForceRange& range : ranges) expect_ends(range, weight, weight, weight);  // equilibrium alone
+}
+
 TEST(Range, RefusesWhatTheModelDoesNotHave) {
   const Assembly pair = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
                                              {.center = {0, 0, 0.5}},
