@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/analysis/statics/sway_stiffness.hpp"
 #include "solver/conic/exact_equilibrium.hpp"
 #include "solver/contact/problem/cone.hpp"
 #include "solver/contact/problem/duality_gap.hpp"
@@ -56,14 +57,6 @@ Vec3 made_admissible(const ContactLaw& law, const Vec3& gamma) {
   return {n, cut * gamma[1], cut * gamma[2]};
 }
 
-/// Geometric stiffness of one side of a contact times h^2, for rotations about the centroid: the force f on
-/// the block acts on a point r that rotates with it.
-Mat3 geometric_stiffness(const Lever& D, const Vec3& gamma, double h) {
-  const Vec3& r = D.arm;
-  const Vec3 f = h * (D.frame * gamma);
-  return f.dot(r) * Mat3::Identity() - 0.5 * (f * r.transpose() + r * f.transpose());
-}
-
 /// Rounding of y = D^T v + b in the norm of E^-1 over the loaded contacts.
 double rounding_of_velocities(const ContactProblem& p, const ContactSolution& x) {
   constexpr double kEps = 4.0 * std::numeric_limits<double>::epsilon();  // of a sum of several products
@@ -104,27 +97,10 @@ std::vector<Mat3> ForceProjection::stiffnesses(const ContactSolution& x) const {
 }
 
 bool ForceProjection::is_stable(const ContactSolution& x, double gravity) {
-  constexpr double kSlowest = 1e-3;    // 1/m, times gravity: squared growth rate that is not reported
-  constexpr double kRounding = 1e-12;  // of the largest diagonal entry
-  BlockMatrix H = assemble_hessian(white_, graph_, stiffnesses(x));
-  double largest = 0.0;
-  for (const Mat6& block : H.diagonal) largest = std::max(largest, block.diagonal().maxCoeff());
-  const double shift = std::max(kSlowest * gravity * p_.h * p_.h, kRounding * largest);
-  for (Mat6& block : H.diagonal) block.diagonal().array() += shift - 1.0;  // the Hessian contains I
-  std::vector<Mat3> geometric(p_.num_blocks(), Mat3::Zero());
-  for (int i = 0; i < p_.num_contacts(); ++i) {
-    const auto add = [&](int k, const Lever& D) {
-      if (k != ContactProblem::kFixed)
-        geometric[k] += geometric_stiffness(D, x.gamma.segment<3>(3 * i), p_.h);
-    };
-    add(p_.block_a[i], p_.D_a[i]);
-    add(p_.block_b[i], p_.D_b[i]);
-  }
-  for (int k = 0; k < p_.num_blocks(); ++k) {
-    const auto of_turns = white_.L_inverse[k].rightCols<3>();
-    H.diagonal[k] += of_turns * geometric[k] * of_turns.transpose();
-  }
-  return preconditioner_.factorize(graph_.pattern, H);
+  constexpr double kSlowest = 1e-3;  // 1/m, times gravity: squared growth rate that is not reported
+  const std::vector<Mat3> G = stiffnesses(x);
+  const SwayStiffness stiffness(white_, graph_, x.gamma, kSlowest * gravity * p_.h * p_.h);
+  return preconditioner_.factorize(graph_.pattern, stiffness.matrix(G)) || stiffness.joints_end_sway(G);
 }
 
 /// The stiffness of the changes that the impulse of a contact may undergo: all where it sticks, in the

@@ -23,7 +23,7 @@ class ForceProjection {
   bool slides(const ContactSolution& x) const;
 
   /// True if stiffness of the joints plus geometric stiffness is positive definite up to a growth rate of
-  /// sqrt(1e-3 gravity / m).
+  /// sqrt(1e-3 gravity / m), as it is or with the joints closed that its negative directions close.
   bool is_stable(const ContactSolution& x, double gravity);
 
   /// True if impulses in exact equilibrium next to those of x are proven to exist (exact_equilibrium.hpp).

@@ -11,7 +11,7 @@ namespace cupola {
 /// Stability of an equilibrium against small disturbances.
 enum class Balance {
   stable,    ///< stiffness of the joints plus geometric stiffness is positive (semi)definite
-  unstable,  ///< it has a negative direction
+  unstable,  ///< it has a negative direction, along which no joint that closes ends the motion
   unknown    ///< not examined: rigid joints, ties, one sector only, or joints that slide under Coulomb's law
 };
 
@@ -43,8 +43,10 @@ struct StaticCertificate {
 /// square root of the joint's area), over the joints that carry more than 1 % of the mean joint force.
 ///
 /// **Stability.** The second variation of the energy: the stiffness of the joints in their present state plus
-/// the geometric stiffness of the contact forces, which act on points that rotate with their blocks. Growth
-/// slower than exp(t sqrt(1e-3 g / m)) is not reported.
+/// the geometric stiffness of the contact forces, which act on points that rotate with their blocks. An arch
+/// with an odd number of voussoirs can have a hinge on either side of its key stone, and sways until one
+/// closes: open joints that the motion closes, whatever their opening, count as closed (sway_stiffness.hpp).
+/// Growth slower than exp(t sqrt(1e-3 g / m)) is not reported.
 ///
 /// **Existence.** Any law, rigid joints too: exact_equilibrium.hpp.
 ///

@@ -321,6 +321,21 @@ TEST(StaticCertificate, ReportsUnstableBalanceOnAnEdgeAndOnACorner) {
   }
 }
 
+// An arch whose springings spread has a hinge at either side of its key stone and one in each haunch: a
+// mechanism that sways, until one of the joints of the key closes. That it stands, motions confirm.
+TEST(StaticCertificate, AnArchThatSwaysUntilAJointClosesIsStable) {
+  for (const int voussoirs : {10, 11}) {
+    Case input = make_case(0.7, 1e-10, 0.01);
+    input.supports.moves = {
+        {.region = {.blocks = {BlockRef{0}}}, .displacement = {1e-3, 0, 0}, .time = {}},
+        {.region = {.blocks = {BlockRef{voussoirs + 1}}}, .displacement = {-1e-3, 0, 0}, .time = {}}};
+    const Scene scene(input, testing::make_arch({.voussoirs = voussoirs, .thickness = 0.135}));
+    const StaticSolution solution = scene.solve(1e-8);
+    ASSERT_EQ(solution.outcome, StaticOutcome::equilibrium) << solution.message;
+    EXPECT_EQ(solution.certificate.balance, Balance::stable) << voussoirs;
+  }
+}
+
 // A block of height H on a bed of four points with compliance c at the corners of its base of side B: tilted
 // by theta, the bed resists with B^2 theta / c and the weight pushes over with W H / 2 theta. The balance is
 // lost at c = 2 B^2 / (W H).
