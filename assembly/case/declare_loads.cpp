@@ -131,7 +131,8 @@ void declare_loads(Section& s, Loads& loads) {
               "in per cent? 2 % is 0.02"});
   s.optional_section("top_load", loads.top_load, "the same on the tops of walls", declare_top_load);
   declare_time(s, "dead_load_time", loads.dead_load_time,
-               "factor on gravity, lantern and top load, not on the horizontal accelerations of limits");
+               "factor on gravity, lantern, top load and fill without `time`, not on the horizontal "
+               "accelerations of limits");
   s.list("forces", loads.forces, "forces and moments on blocks", declare_block_force);
   s.list("faces", loads.faces, "loads on all faces of one kind", declare_face_load);
   s.rule(!gives_fill_of_tops_twice(loads.faces), "faces",

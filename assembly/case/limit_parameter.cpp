@@ -23,6 +23,7 @@ Vec3 horizontal(const Case& scene) {
 
 /// Makes a time function constant, with its value at time 0.
 void freeze(TimeFunction* time) {
+  if (std::holds_alternative<ConstantInTime>(*time)) return;
   const double factor = factor_at(*time, 0.0);
   *time = RampInTime{factor, factor, 0.0, 1.0};
 }

@@ -123,7 +123,10 @@ double share_beside(const BlockForce& load, const Assembly& assembly) {
 std::vector<TimeFunction> load_times(const Loads& loads) {
   std::vector<TimeFunction> times;
   for (const BlockForce& load : loads.forces) times.push_back(load.time);
-  for (const FaceLoad& load : loads.faces) times.push_back(load.time);
+  for (const FaceLoad& load : loads.faces) {
+    const bool is_dead_load = load.fill && std::holds_alternative<ConstantInTime>(load.time);
+    times.push_back(is_dead_load ? loads.dead_load_time : load.time);
+  }
   return times;
 }
 

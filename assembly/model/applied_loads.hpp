@@ -27,7 +27,7 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
 /// The part of a spread force that meets no free masonry, 0 to 1, and acts on nothing.
 double share_beside(const BlockForce& load, const Assembly& assembly);
 
-/// The time functions that PointForce::time refers to: those of `loads.forces`, then of `loads.faces`.
+/// What PointForce::time refers to: the times of `loads.forces` and `loads.faces`; of a fill, the dead load.
 std::vector<TimeFunction> load_times(const Loads& loads);
 /// The factor on a force at a time (s). `of_force`: PointForce::time; `times`: load_times().
 double load_factor(int of_force, const TimeFunction& dead_load_time, const std::vector<TimeFunction>& times,

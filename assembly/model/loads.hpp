@@ -118,7 +118,7 @@ struct Loads {
   Vec3 pull = Vec3::Zero();       ///< m/s2, of all that weighs, in full at any time: see case_at()
   std::optional<TopLoad> lantern;
   std::optional<TopLoad> top_load;
-  /// Factor on gravity, lantern and top load: a ramp applies the dead load gradually.
+  /// Factor on gravity, lantern, top load and fill without `time`: a ramp applies the dead load gradually.
   TimeFunction dead_load_time;
   std::vector<BlockForce> forces;
   std::vector<FaceLoad> faces;

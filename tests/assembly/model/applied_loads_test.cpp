@@ -42,6 +42,27 @@ TEST(AppliedLoads, ALanternWeighsItsNewtonsOrItsMass) {
   EXPECT_EQ(applied_loads(loads, assembly).at(0).force.z(), -600.0);
 }
 
+// A ramp of the dead load that left a fill out would lay all of it on stones without weight. A fill with a
+// time of its own is laid on the finished vault. In a limit both keep their factors at the time 0.
+TEST(AppliedLoads, AFillIsDeadLoadUnlessItHasATimeOfItsOwn) {
+  Case scene;
+  scene.loads.dead_load_time = RampInTime{0.2, 1.0, 0.0, 1.0};
+  scene.loads.faces = {
+      {.fill = Fill{.level = 2.0, .unit_weight = 16000}},
+      {.time = RampInTime{0.0, 1.0, 1.0, 1.0}, .fill = Fill{.level = 2.0, .unit_weight = 16000}},
+      {.pressure = 100.0}};
+  const auto factors = [](const Loads& loads, double time) {
+    std::vector<double> at;
+    const std::vector<TimeFunction> times = load_times(loads);
+    for (int i = 0; i < 3; ++i) at.push_back(load_factor(i, loads.dead_load_time, times, time));
+    return at;
+  };
+  EXPECT_EQ(factors(scene.loads, 0.0), (std::vector{0.2, 0.0, 1.0}));
+  EXPECT_EQ(factors(scene.loads, 1.0), (std::vector{1.0, 0.0, 1.0}));
+  scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
+  EXPECT_EQ(factors(case_at(scene, 0.5).loads, 1.0), (std::vector{0.2, 0.0, 1.0}));
+}
+
 // Pushed sidewards by its own weight, a lantern of 120 N weighs as much downwards as before. Where 0.8 of the
 // weight acts, the mass stays: inertia is that of all.
 TEST(AppliedLoads, ALanternOfNewtonsIsAcceleratedWithTheRest) {
