@@ -15,7 +15,7 @@ struct CaseNode {
   struct Entry;
 
   Kind kind = Kind::empty;
-  std::string text;             ///< scalar
+  std::string text;             ///< scalar, or the `null` of an empty node, "" if nothing was written
   bool quoted = false;          ///< scalar in quotes: never a number
   std::vector<CaseNode> items;  ///< list
   std::vector<Entry> entries;   ///< map, in the order of the file

@@ -46,9 +46,8 @@ CaseNode* find_item(CaseNode* map, const CaseNode::Entry& key) {
   return &items[static_cast<size_t>(index)];
 }
 
-/// Merges `over` into `base`: maps key by key, other nodes replace, an empty value (`null`) removes the key.
-/// In a map whose keys depend on its type, a different type replaces the whole map. The key `name[i]` changes
-/// item i of a list.
+/// Merges `over` into `base`: maps key by key, other nodes replace. In a map whose keys depend on
+/// its type, a different type replaces the whole map. The key `name[i]` changes item i of a list.
 void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "") {
   if (base->kind != CaseNode::Kind::map || over.kind != CaseNode::Kind::map) {
     *base = over;
@@ -65,14 +64,20 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
     }
     const auto present = std::find_if(base->entries.begin(), base->entries.end(),
                                       [&](const CaseNode::Entry& e) { return e.key == entry.key; });
-    if (present == base->entries.end()) {
+    if (present == base->entries.end())
       base->entries.push_back(entry);
-    } else if (entry.value.kind == CaseNode::Kind::empty) {
-      base->entries.erase(present);
-    } else {
+    else
       overlay(&present->value, entry.value, entry_path);
-    }
   }
+}
+
+/// Removes the keys that are `null`, of the case or by what extends it. Those without a value stay, as errors.
+void remove_nulls(CaseNode* node) {
+  std::erase_if(node->entries, [](const CaseNode::Entry& entry) {
+    return entry.value.kind == CaseNode::Kind::empty && !entry.value.text.empty();
+  });
+  for (CaseNode::Entry& entry : node->entries) remove_nulls(&entry.value);
+  for (CaseNode& item : node->items) remove_nulls(&item);
 }
 
 /// `cupola:NAME` if a file of this name comes with Cupola, else "".
@@ -205,6 +210,7 @@ CaseNode load_case_tree(const std::string& path, const std::vector<std::string>&
   options.kind = CaseNode::Kind::map;
   for (const std::string& option : set_options) overlay(&options, parse_set_option(option));
   overlay(&tree, options);
+  remove_nulls(&tree);
   if (files) *files = chain.paths;
   if (warnings) *warnings = chain.warnings;
   return tree;

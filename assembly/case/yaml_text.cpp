@@ -1,10 +1,12 @@
 #include "assembly/case/yaml_text.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/null.h>
 #include <yaml-cpp/parser.h>
 
 namespace cupola {
@@ -22,13 +24,17 @@ FileLocation location(const std::string& file, const YAML::Mark& mark) {
 /// and do not expand aliases.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(const std::string& file) : file_(file) {}
+  TreeBuilder(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
   CaseNode root;
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(node(CaseNode::Kind::empty, mark)); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    CaseNode empty = node(CaseNode::Kind::empty, mark);
+    empty.text = written_null(mark);
+    add(std::move(empty));
+  }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse_anchor(mark); }
   void OnAnchor(const YAML::Mark& mark, const std::string&) override { refuse_anchor(mark); }
 
@@ -60,6 +66,14 @@ class TreeBuilder : public YAML::EventHandler {
     std::string key;
     FileLocation key_where;
   };
+
+  /// The word at the mark if it stands for nothing. Of a missing value, yaml-cpp marks what comes next.
+  std::string written_null(const YAML::Mark& mark) const {
+    const size_t start = std::min(static_cast<size_t>(mark.pos), text_.size());
+    const size_t end = std::min(text_.find_first_of(" \t\r\n,]}:", start), text_.size());
+    const std::string word = text_.substr(start, end - start);
+    return YAML::IsNullString(word) ? word : "";
+  }
 
   CaseNode node(CaseNode::Kind kind, const YAML::Mark& mark) const {
     CaseNode result;
@@ -119,6 +133,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
+  const std::string& text_;
   const std::string& file_;
   std::vector<Level> levels_;
 };
@@ -170,8 +185,8 @@ void check_characters(const std::string& text, const std::string& file) {
 CaseNode parse_yaml(const std::string& text, const std::string& file) {
   check_characters(text, file);
   std::istringstream stream(text);
-  TreeBuilder builder(file);
-  TreeBuilder second(file);
+  TreeBuilder builder(text, file);
+  TreeBuilder second(text, file);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) throw InputError(FileLocation{file}, "is empty");

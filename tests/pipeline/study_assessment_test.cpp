@@ -81,6 +81,17 @@ TEST(Assessment, ComputesAllPartsOfACaseWithKeysOfItsOwn) {
   EXPECT_EQ(margins[1].find("Critical friction,"), 0u) << "of all joints: " << margins[1];
 }
 
+// On a path that lets the dead load grow from zero the stones weigh nothing at the time 0. An arch of a third
+// of the thickness does not stand.
+TEST(Assessment, TakesTheFullDeadLoadOfAPath) {
+  const ProgramFolder folder;
+  std::string text = kArch;
+  text.replace(text.find("thickness: 0.8"), 14, "thickness: 0.2");
+  text.replace(text.find("loads: {"), 8, "loads: {dead_load_time: {type: ramp}, ");
+  const ProgramRun run = assess(folder, text + "analysis: {type: path}\n");
+  EXPECT_NE(run.out.find("It falls: "), std::string::npos) << run.out << run.err;
+}
+
 // A case that moves its supports itself has no settlements: their table is left out.
 TEST(Assessment, ShowsNoTableWithoutRuns) {
   const ProgramFolder folder;

@@ -253,6 +253,32 @@ TEST(ReadCase, SetOptionsOverrideInOrderAndAcceptYaml) {
   EXPECT_FALSE(c.loads.lantern);
 }
 
+// A value that was forgotten, or a shell variable that is not set, is no wish for the default.
+TEST(ReadCase, NullRemovesAnInheritedKeyAndAMissingValueIsAnError) {
+  const ScratchFolder scratch;
+  const std::string base = scratch.write("dome.yaml", kDome);
+  const auto friction_of = [&](const std::string& value) {
+    return read_case(scratch.write("own.yaml", "extends: dome.yaml\njoints:\n  friction:" + value + "\n"))
+        .joints.friction;
+  };
+  EXPECT_EQ(friction_of(" 0.2"), 0.2);
+  for (const char* null : {" null", " ~", " Null  # none"})
+    EXPECT_EQ(friction_of(null), Joints{}.friction) << null;
+  EXPECT_EQ(read_case(base, {"joints.friction=0.2", "joints.friction=null"}).joints.friction,
+            Joints{}.friction);
+  EXPECT_EQ(read_case(base, {"joints.cohesion=null"}).joints.friction, read_case(base).joints.friction);
+  for (const char* missing : {"", "  # 0.5", "\ntitle: ~"}) {
+    try {
+      friction_of(missing);
+      FAIL() << missing;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("joints.friction is empty"), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_THROW(read_case(base, {"joints.friction="}), InputError);
+}
+
 TEST(ReadCase, ADifferentTypeReplacesTheKeysOfTheOldType) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("dome.yaml", kDome);
