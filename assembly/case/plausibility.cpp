@@ -52,9 +52,10 @@ std::vector<std::string> undivided_joints(const Case& scene) {
   const CaseNode* contact = scene.keys->find("contact");
   if ((contact && contact->find("subdivide")) || !can_crush(scene.joints)) return {};
   return {
-      "contact.subdivide is not given: an undivided joint with compressive strength is up to 20 % too strong "
-      "where a sixth of it or less bears, because its edge then never crushes, and up to a third too weak "
-      "where half of it bears; write 8, and double it until the answer stays"};
+      "contact.subdivide is not given: an undivided joint with compressive strength is 20 % too strong "
+      "where a sixth of it bears, 85 % where a tenth does, and more below, because its edge never crushes, "
+      "and "
+      "a third too weak where half of it bears; write 8, and double it until the answer stays"};
 }
 
 }  // namespace cupola
