@@ -26,6 +26,7 @@ void declare_reaction(Section& s, BlockReaction& reaction) {
            "of the force on the supports: vertical (downwards) or outward (from the axis of the vault)");
   s.optional_vector3("direction", reaction.direction, {}, "component",
                      "instead of a component, of any length");
+  s.rule(!reaction.direction || reaction.direction->norm() > 0.0, "direction", "must not be zero");
 }
 
 void declare_joint(Section& s, JointForce& joint) {
@@ -41,6 +42,7 @@ void declare_joint(Section& s, JointForce& joint) {
                     "normal is the usual one");
   s.optional_vector3("direction", joint.direction, {}, "outwards",
                      "shear, resultant, eccentricity: direction, of any length");
+  s.rule(!joint.direction || joint.direction->norm() > 0.0, "direction", "must not be zero");
 }
 
 void declare_hoop(Section& s, HoopForce& hoop) {
