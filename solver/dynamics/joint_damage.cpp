@@ -138,6 +138,11 @@ bool follow_motion(const StepProblem& step, const ContactSolution& motion, doubl
   return any;
 }
 
+void begin_to_pull(double gap, JointDamage* joint) {
+  const double opening = gap + joint->crushing;
+  joint->opening = opening > kRounding ? opening : 0.0;
+}
+
 bool let_joints_bear_and_pull(ContactMemories* memories) {
   bool any = false;
   for (ContactMemory& memory : memories->stored()) {

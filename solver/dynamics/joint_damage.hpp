@@ -51,6 +51,10 @@ bool refine_step(const Model& model, const State& state, const ContactSet& conta
 bool follow_motion(const StepProblem& step, const ContactSolution& motion, double h,
                    ContactMemories* memories);
 
+/// A joint that could not pull gets a law that can: it is cracked as far as it is open, or else bonded.
+/// `gap`: m.
+void begin_to_pull(double gap, JointDamage* joint);
+
 /// Makes cracked joints bonded, for a proof that forces do not balance the loads whichever of them bear or
 /// pull. True if there are any.
 bool let_joints_bear_and_pull(ContactMemories* memories);

@@ -7,8 +7,16 @@
 #include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/static_step.hpp"
+#include "solver/dynamics/joint_damage.hpp"
 
 namespace cupola {
+namespace {
+
+bool pulls(const JointLaw& law) {
+  return law.strength.tension > 0.0 && (law.mu == 0.0 || law.strength.cohesion > 0.0);
+}
+
+}  // namespace
 
 Construction::Construction(const Case& scene, const Assembly& assembly,
                            const std::function<void(const std::string&)>& log)
@@ -89,18 +97,20 @@ bool Construction::any_free() const {
   return false;
 }
 
-/// A joint whose compliance changes keeps its forces: the elastic displacements that they cause with the new
-/// compliance become part of its reference.
+/// A joint keeps its force. Where the compliance changes, the elastic displacements that the force then causes
+/// become part of its reference. A crack that opened without pull pulls once it opens further.
 void Construction::harden(const Model& before, const Model& after) {
   const ContactSet& contacts = site_->contacts;
   for (size_t i = 0; i < contacts.points.size(); ++i) {
     const Contact& contact = contacts.points[i];
     const JointLaw old_law = joint_law(before, contacts, contact, 0.0);
     const JointLaw law = joint_law(after, contacts, contact, 0.0);
+    BuiltContact& joint = state_.joints[i];
+    if (pulls(law) && !pulls(old_law) && state_.laid[contact.block_a] && state_.laid[contact.block_b])
+      begin_to_pull(joint.gap, &joint.memory.joint);
     if (law.compliance_normal == old_law.compliance_normal &&
         law.compliance_tangential == old_law.compliance_tangential)
       continue;
-    BuiltContact& joint = state_.joints[i];
     const Vec3 force = joint.memory.impulse;
     const double change = -law.compliance_normal * force[0] - joint.memory.elastic_gap;
     if (force[0] != 0.0) {

@@ -45,6 +45,61 @@ TEST(Construction, CarriedColumnSettlesFromTheBirthOfEachBlock) {
   }
 }
 
+/// What the contacts of block 1 with the floor bear, and how far they are open.
+struct Bed {
+  double push = 0.0, pull = 0.0;  ///< N
+  double gap = 0.0;               ///< m, the widest
+};
+
+Bed bed_of_block_1(const Frame& frame) {
+  Bed bed;
+  const ContactTable& contacts = frame.contacts;
+  for (int i = 0; i < contacts.size(); ++i) {
+    if (contacts.block_a[i] != 0 || contacts.block_b[i] != 1) continue;
+    bed.push += std::max(0.0, contacts.normal_force[i]);
+    bed.pull += std::max(0.0, -contacts.normal_force[i]);
+    bed.gap = std::max(bed.gap, contacts.gap[i]);
+  }
+  return bed;
+}
+
+// A block of weight W leans so far that its fresh bed, without tension, opens. The bed hardens while a block
+// is laid elsewhere: no load changes, and so does nothing. A third block of weight P on top of the first
+// opens the crack further, and the bed pulls by at least (W (s h - b) + P (s (2 h + k) - b)) / 2 b, if all at
+// one edge, from the moments about the other, with the slope s, height h and width b of the first block, and
+// the height k of the third.
+TEST(Construction, ACrackOfAFreshBedStaysWhenItHardens) {
+  const double b = 0.5, h = 1.0, k = 0.2, slope = 0.45, light = 1000.0, heavy = 5000.0;
+  const Assembly boxes =
+      testing::make_boxes({{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true},
+                           {.center = {0, 0, 0.5 * h}, .size = {b, b, h}, .density = light, .ring = 0},
+                           {.center = {5, 0, 0.5 * b}, .size = {b, b, b}, .density = light, .ring = 1},
+                           {.center = {0, 0, h + 0.5 * k}, .size = {b, b, k}, .density = heavy, .ring = 2}});
+  for (const double stiffer : {1.0, 0.5}) {
+    Case scene = level_case(stiffer * 1e-9, true);
+    scene.loads.gravity = testing::tilted_gravity(slope);
+    scene.joints.strength = {.tension = 1e5, .cohesion = 1e5};
+    scene.analysis.tolerance = 1e-9;
+    FreshMortar& fresh = scene.analysis.staged.fresh;
+    fresh.friction = 0.6;
+    fresh.normal = 1e-9;
+    const Built built = build(scene, boxes);
+    ASSERT_EQ(built.summary.status, Status::stable) << built.summary.message;
+    ASSERT_EQ(built.frames.size(), 3u);
+    const Bed open = bed_of_block_1(built.frames[0]), hardened = bed_of_block_1(built.frames[1]),
+              loaded = bed_of_block_1(built.frames[2]);
+    const double per_kg = testing::kG * std::cos(std::atan(slope));
+    const double weight = light * b * b * h * per_kg, top = heavy * b * b * k * per_kg;
+    EXPECT_GT(open.gap, 1e-6);
+    EXPECT_NEAR(hardened.gap / open.gap, 1.0, 1e-6) << "the accuracy of the solves, " << stiffer;
+    EXPECT_NEAR(hardened.push / weight, 1.0, 1e-6);
+    EXPECT_NEAR(hardened.pull / weight, 0.0, 1e-6);
+    const double pull = (weight * (slope * h - b) + top * (slope * (2.0 * h + k) - b)) / (2.0 * b);
+    EXPECT_GE(loaded.pull, pull);
+    EXPECT_GT(loaded.gap, open.gap);
+  }
+}
+
 // Cubes of weight W on joints of compliance c; a tie of stiffness k and prestress P from the floor to the
 // second one. The tie is born with its prestress when that block is laid, and slackens by what is laid from
 // then on: by the joints below it, 2 k c (W + its own change of force) per block. Built at once it also
