@@ -27,10 +27,15 @@ std::string not_held_text(Least property, double tried, const std::string& stage
   return fmt::format("no fresh {} up to {} holds {}", to_string(property), most, stage);
 }
 
+/// The stage that hides what the construction needs, in words; empty: none.
+const std::string& undecided_stage(const ConstructionProgress& p) {
+  return p.not_held.empty() && p.may_need > p.least_stands ? p.may_need_text : p.not_held;
+}
+
 /// The answer to analysis.staged.least, the last clause of the message. A value that not all stages have
 /// is none of the construction.
 std::string least_answer(const ConstructionProgress& p, Least property, const std::string& most_demanding) {
-  if (!p.not_held.empty()) return p.not_held;
+  if (!undecided_stage(p).empty()) return undecided_stage(p);
   if (p.least_stands < 0.0) return fmt::format("every stage stands without fresh {}", to_string(property));
   return fmt::format("the most demanding is {}, which needs {:.4g}{}", most_demanding, p.least_stands,
                      property == Least::cohesion ? " Pa" : "");
@@ -57,12 +62,18 @@ void ConstructionProgress::include(const LaidBlocks& laid, const Construction& b
   const Bracket& bracket = stage.least.bracket;
   if (property != Least::none && !stage.least.needs_none) {
     undecided += bracket.found && !bracket.narrow;
-    if (!bracket.found && not_held.empty()) {
+    if (!bracket.found) {
       const std::string name = stage_name(next, laid, site.assembly);
-      not_held = bracket.moving.outcome == StaticOutcome::moving
-                     ? not_held_text(property, bracket.moving.value, name)
-                     : fmt::format("the least fresh {} of {} was not found ({})", to_string(property), name,
-                                   bracket.message);
+      const std::string text = bracket.moving.outcome == StaticOutcome::moving
+                                   ? not_held_text(property, bracket.moving.value, name)
+                                   : fmt::format("the least fresh {} of {} was not found ({})",
+                                                 to_string(property), name, bracket.message);
+      if (bracket.stable.outcome != StaticOutcome::equilibrium) {
+        if (not_held.empty()) not_held = text;
+      } else if (bracket.stable.value > may_need) {
+        may_need = bracket.stable.value;
+        may_need_text = text;
+      }
     }
   }
   if (bracket.found && bracket.stable.value > least_stands) {
@@ -104,7 +115,7 @@ void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Ca
                                     counted(undecided, "stage"));
   summary->message +=
       "; " + least_answer(*this, property, stage_name(least_stage, stages[least_stage], assembly));
-  if (not_held.empty() && least_stands >= 0.0)
+  if (undecided_stage(*this).empty() && least_stands >= 0.0)
     summary->critical =
         CriticalValue{"fresh " + name, 0.5 * (least_stands + least_moves), least_stands, least_moves};
 }

@@ -99,9 +99,9 @@ constexpr CsvColumn<StageRow> kConstructionColumns[] = {
     {"speed_ratio", [](const StageRow& r) { return fmt::format("{:.6e}", r.stage.solution.speed_ratio); }},
     {"least_stands",
      [](const StageRow& r) -> std::string {
-       const LeastSearch::Result& least = r.stage.least;
-       if (least.bracket.found) return fmt::format("{:.9g}", least.bracket.stable.value);
-       return least.needs_none ? "0" : "";
+       const LimitTrial& stable = r.stage.least.bracket.stable;
+       if (stable.outcome == StaticOutcome::equilibrium) return fmt::format("{:.9g}", stable.value);
+       return r.stage.least.needs_none ? "0" : "";
      }},
     {"least_moves",
      [](const StageRow& r) {
@@ -136,6 +136,14 @@ constexpr CsvColumn<FailureRow> kFailureColumns[] = {
     {"relative_speed", [](const FailureRow& r) { return fmt::format("{:.4f}", r.falling.speed); }},
 };
 
+/// Its tension ends at cohesion over friction, so that more friction can bear less.
+bool fresh_mortar_pulls(const StagedConstruction& staged, const Joints& joints) {
+  if (staged.curing.empty()) return staged.fresh.tension > 0.0;
+  return std::ranges::any_of(staged.curing, [&](const CuringMortar& row) {
+    return row.law.tension.value_or(joints.strength.tension) > 0.0;
+  });
+}
+
 }  // namespace
 
 SolvedStage solve_stage(Construction* building, LeastSearch* search, Construction::Need need) {
@@ -157,8 +165,12 @@ LeastSearch first_search(const Case& scene) {
     return {kFirstCohesion, kMostCohesion, {staged.relative_width, kNarrowestCohesion}};
   const Joints& joints = scene.joints;
   const double hardened = joints.bed ? joints.bed->friction.value_or(joints.friction) : joints.friction;
-  return {
-      hardened > 0.0 ? hardened : kFirstFriction, kMostFriction, {staged.relative_width, kNarrowestFriction}};
+  const BracketWidth width{staged.relative_width, kNarrowestFriction};
+  const double first = hardened > 0.0 ? hardened : kFirstFriction;
+  if (!fresh_mortar_pulls(staged, joints)) return {first, kMostFriction, width};
+  const double own =
+      staged.curing.empty() ? staged.fresh.friction : staged.curing.front().law.friction.value_or(first);
+  return {own > 0.0 ? own : first, kMostFriction, width, LeastSearch::MoreBears::less_at_times};
 }
 
 std::string construction_header() {

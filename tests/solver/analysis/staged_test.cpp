@@ -84,6 +84,26 @@ TEST(Staged, TheLeastFreshFrictionEqualsTheSlope) {
     }
 }
 
+// A block on a slope s = 2 / 9.81 slides with a friction below s - c A / W and would tip without the tension
+// of its bed, which ends at c / mu: it falls with the friction of 0.6 that hardened mortar has.
+TEST(Staged, TheLeastFreshFrictionMayBeBelowOneThatLetsItFall) {
+  const Assembly block = testing::running_bond_wall({0.16, 0.5, 1.0}, 1, 1);
+  Case scene = staged_case(0.6, 0.2);
+  scene.loads.gravity = Vec3(2.0, 0.0, -testing::kG);
+  scene.contact.subdivide = 4;
+  scene.joints.compliance = {1e-9, 2e-9, Compliance::Per::area};
+  scene.joints.strength = {.tension = 5e4, .cohesion = 1e5};
+  const double weight_per_area = 1000.0 * testing::kG, cohesion = 0.15 * weight_per_area;
+  scene.analysis.staged.fresh.cohesion = cohesion;
+  scene.analysis.staged.fresh.tension = 0.4 * weight_per_area;
+  scene.analysis.staged.least = StagedConstruction::Least::friction;
+  const Built built = build(scene, block);
+  EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
+  ASSERT_TRUE(built.summary.critical) << built.summary.message;
+  EXPECT_NEAR(built.summary.critical->value, 2.0 / testing::kG - cohesion / weight_per_area, 5e-4)
+      << "the width of the bracket, a hundredth";
+}
+
 // On level ground no course slides, even without friction.
 TEST(Staged, ReportsStagesThatNeedNoFriction) {
   Case scene = staged_case(0.6, 0.1);
