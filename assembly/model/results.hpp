@@ -251,8 +251,10 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   std::optional<CriticalValue> critical;  ///< limit analysis only
-  std::vector<ForceRange> ranges;         ///< range analysis only
-  std::optional<Robustness> robustness;   ///< static analysis, on request
+  /// Limit analysis without a critical value: whether the structure stands, or moves, at both ends.
+  std::optional<bool> stands_at_both_ends;
+  std::vector<ForceRange> ranges;        ///< range analysis only
+  std::optional<Robustness> robustness;  ///< static analysis, on request
   std::vector<PartVerdict> parts;  ///< static analysis without an equilibrium of the whole: the largest first
   std::vector<std::string> warnings;              ///< about the case and the blocks, one sentence each
   std::map<std::string, std::string> text_files;  ///< text files of the results folder: name to hash

@@ -169,6 +169,11 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit("threads", "", "number of threads", s.threads);
   visit("robustness", "", "static analysis with `analysis.robustness`, see below", s.robustness);
   visit("warnings", "", "doubts about the case and the blocks, one sentence each", s.warnings);
+  visit(
+      "stands_at_both_ends", "",
+      "limit analysis without a critical value: whether the structure stands, or moves, at both ends of its "
+      "bracket",
+      s.stands_at_both_ends);
   visit("ranges", "", "range analysis only: one entry per quantity, see below", s.ranges);
   visit("parts", "",
         "static analysis without an equilibrium of the whole, of several parts that no contact or tie "

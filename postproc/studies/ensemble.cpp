@@ -42,23 +42,9 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   if (ensembles.empty()) return "";
   std::vector<EnsembleResults> all;
   for (const SampledRuns& ensemble : ensembles) all.push_back(results_of(ensemble, runs_folder));
-  // The columns of ranges differ between analyses; ensembles are compared column by column only if all have
-  // the same.
-  for (EnsembleResults& one : all) one.results = varying_columns({&one.members});
-  const bool alike = std::ranges::all_of(all, [&](const EnsembleResults& one) {
-    return std::ranges::equal(one.members.columns, all.front().members.columns, {}, &Table::Column::key,
-                              &Table::Column::key);
-  });
-  if (alike) {
-    std::vector<const Table*> tables;
-    for (const EnsembleResults& one : all) tables.push_back(&one.members);
-    for (EnsembleResults& one : all) one.results = varying_columns(tables);
-  }
-  // The state in which a limit analysis ends says nothing about the structure under its own loads.
-  for (EnsembleResults& one : all)
-    if (const auto critical = one.critical_column()) one.results = {*critical};
+  find_results(&all);
   std::vector<std::string> sentences;
-  const Table differences = alike ? differences_table(all, &sentences) : Table{};
+  const Table differences = differences_table(all, &sentences);
   bool good = true;
   for (const EnsembleResults& one : all) {
     const std::string failed = failures(one.members, "member");
@@ -74,8 +60,7 @@ std::string add_ensembles(const std::vector<SampledRuns>& ensembles, const std::
   add_headline(sentences, good, page);
   std::string text = fmt::format("{}\n", fmt::join(sentences, "\n"));
   page->add_paragraph("Intervals are those of 95 %.");
-  if (alike)
-    if (const Figure figure = distribution_figure(all); !figure.commands.empty()) page->add_figures({figure});
+  if (const Figure figure = distribution_figure(all); !figure.commands.empty()) page->add_figures({figure});
   if (!differences.rows.empty()) page->add_table(differences);
   for (const EnsembleResults& one : all) {
     page->add("<h2>" + html_text(one.name) + "</h2>\n");

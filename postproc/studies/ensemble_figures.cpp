@@ -80,16 +80,20 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
       "Of a critical value up to which a structure stands (load, acceleration, tilt) the curve is the "
       "fragility: the share that falls at that value; of one that it needs (friction, thickness), the share "
       "that stands there.";
-  std::vector<size_t> columns = ensembles.front().results;
+  std::vector<Table::Column> columns;
+  for (const EnsembleResults& one : ensembles)
+    for (const size_t k : one.results)
+      if (std::ranges::count(columns, one.members.columns[k].key, &Table::Column::key) == 0)
+        columns.push_back(one.members.columns[k]);
   if (columns.size() > kMostResults) columns.resize(kMostResults);
-  if (columns.empty()) return f;
   std::string data;
   std::vector<std::string> plots;
-  for (const size_t k : columns) {
-    const Table::Column& column = ensembles.front().members.columns[k];
+  for (const Table::Column& column : columns) {
     std::string plot;
     for (size_t e = 0; e < ensembles.size(); ++e) {
-      std::vector<double> values = ensembles[e].values(k).values;
+      const std::optional<size_t> k = ensembles[e].result_named(column.key);
+      if (!k) continue;
+      std::vector<double> values = ensembles[e].values(*k).values;
       std::erase_if(values, [](double v) { return std::isnan(v); });
       std::ranges::sort(values);
       std::vector<std::vector<double>> rows;
@@ -97,17 +101,19 @@ Figure distribution_figure(const std::vector<EnsembleResults>& ensembles) {
         if (std::isfinite(values[i]))
           rows.push_back({values[i], static_cast<double>(i + 1) / static_cast<double>(values.size())});
       if (rows.empty()) continue;
-      const std::string block = fmt::format("column{}_{}", k, e);
+      const std::string block = fmt::format("column{}_{}", plots.size(), e);
       data += data_block(block, rows);
       plot +=
           fmt::format("{} ${} using 1:2 w steps lc rgb '{}' lw 1.5 title '{}'", plot.empty() ? "plot" : ",",
                       block, kEnsembleColours[e % kEnsembleColours.size()], gnuplot_text(ensembles[e].name));
     }
+    if (plot.empty()) continue;
     plots.push_back(fmt::format("set xlabel '{}{}'\n",
                                 gnuplot_text(column.meaning.substr(0, column.meaning.find(':'))),
                                 column.unit.empty() ? "" : " (" + gnuplot_text(column.unit) + ")") +
                     plot + "\n");
   }
+  if (plots.empty()) return f;
   draw_below_each_other(
       data, "set format x '%.6g'\nset yrange [0:1]\nset ylabel 'share of members'\nset key bottom right\n",
       plots, 280, &f);

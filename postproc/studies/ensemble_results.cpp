@@ -68,11 +68,11 @@ std::string scatter_sentence(const IntervalEstimate& ratio) {
 
 /// The mean difference of a result. There is none where a member falls, or stands, throughout its bracket: the
 /// mean of the other pairs would leave out the largest differences.
-void add_difference(const EnsembleResults& a, const EnsembleResults& b, size_t column, Table* table,
-                    std::vector<std::string>* sentences) {
-  const std::string pair = a.name + " less " + b.name, &key = a.members.columns[column].key;
-  DrawnValues difference = a.values(column);
-  const DrawnValues other = b.values(column);
+void add_difference(const EnsembleResults& a, const EnsembleResults& b, size_t in_a, size_t in_b,
+                    Table* table, std::vector<std::string>* sentences) {
+  const std::string pair = a.name + " less " + b.name, &key = a.members.columns[in_a].key;
+  DrawnValues difference = a.values(in_a);
+  const DrawnValues other = b.values(in_b);
   int pairs = 0, infinite = 0;
   double first = 0.0, second = 0.0;
   for (size_t i = 0; i < difference.values.size(); ++i) {
@@ -94,7 +94,7 @@ void add_difference(const EnsembleResults& a, const EnsembleResults& b, size_t c
   if (infinite > 0 || pairs == 0) return;
   const IntervalEstimate mean = mean_of(difference);
   std::vector<Table::Cell> row = {pair, key, pairs, first / pairs, second / pairs};
-  const IntervalEstimate scatter = scatter_ratio(a.values(column), b.values(column));
+  const IntervalEstimate scatter = scatter_ratio(a.values(in_a), other);
   add_estimate(mean, &row);
   add_estimate(scatter, &row);
   row.emplace_back(kNone);
@@ -126,7 +126,9 @@ void add_pair(const EnsembleResults& a, const EnsembleResults& b, Table* table,
         "(exact McNemar test: p = {:.2g}).",
         p > 0.05 ? kNotShown : "", a.name, b.name, counted(both, "member"), only_a, only_b, p));
   }
-  for (const size_t column : a.results) add_difference(a, b, column, table, sentences);
+  for (const size_t column : a.results)
+    if (const auto other = b.result_named(a.members.columns[column].key))
+      add_difference(a, b, column, *other, table, sentences);
 }
 
 /// How far the members of a limit analysis stand.
@@ -140,8 +142,8 @@ std::string critical_sentence(const EnsembleResults& ensemble, size_t column) {
         ensemble.name, short_number(quantile_of(drawn, 0.5).value), unit,
         short_number(quantile_of(drawn, 0.05).value), short_number(quantile_of(drawn, 0.95).value));
   int without[2] = {0, 0};  // a critical value: that stand, that fall
-  for (size_t i = 0; i < drawn.values.size(); ++i)
-    if (std::isinf(drawn.values[i])) ++without[ensemble.falls[i]];
+  for (const std::optional<bool>& stands : ensemble.throughout)
+    if (stands) ++without[*stands ? 0 : 1];
   const auto text = [&](double p) {
     const double value = quantile_of(drawn, p).value;
     if (std::isfinite(value)) return short_number(value) + unit;
@@ -150,11 +152,13 @@ std::string critical_sentence(const EnsembleResults& ensemble, size_t column) {
   std::vector<std::string> parts;
   if (without[1] > 0) parts.push_back(counted(without[1], "falls", "fall"));
   if (without[0] > 0) parts.push_back(counted(without[0], "stands", "stand"));
-  return fmt::format(
-      "{}: of {} {} throughout the bracket. With them, the 5 % quantile of the critical value is {}, the "
-      "median {}, the 95 % quantile {}.",
-      ensemble.name, counted(drawn.values.size(), "member"), fmt::join(parts, " and "), text(0.05), text(0.5),
-      text(0.95));
+  const std::string ended = fmt::format("{}: of {} {} throughout the bracket.", ensemble.name,
+                                        counted(drawn.values.size(), "member"), fmt::join(parts, " and "));
+  if (std::ranges::none_of(drawn.values, [](double v) { return std::isfinite(v); })) return ended;
+  return ended + fmt::format(
+                     " With them, the 5 % quantile of the critical value is {}, the median {}, the 95 % "
+                     "quantile {}.",
+                     text(0.05), text(0.5), text(0.95));
 }
 
 }  // namespace
@@ -169,19 +173,27 @@ DrawnValues EnsembleResults::values(size_t column, size_t count) const {
   std::vector<double> all = column_of_numbers(members, column);
   if (column == critical_column())
     for (size_t i = 0; i < all.size(); ++i)
-      if (!std::isfinite(all[i]) && falls[i] >= 0)
+      if (throughout[i])
         all[i] = std::copysign(std::numeric_limits<double>::infinity(),
-                               (falls[i] == 1) == more_is_safer ? -1.0 : 1.0);
+                               *throughout[i] == more_is_safer ? 1.0 : -1.0);
   if (count >= all.size()) return {std::move(all), replicates()};
   all.resize(count);
   return {std::move(all), independent() ? static_cast<int>(count) : 0};
 }
 
+std::optional<size_t> EnsembleResults::result_named(const std::string& key) const {
+  for (const size_t column : results)
+    if (members.columns[column].key == key) return column;
+  return {};
+}
+
 std::optional<size_t> EnsembleResults::critical_column() const {
-  for (size_t k = 0; k < members.columns.size(); ++k)
-    if (members.columns[k].key == "critical_value" &&
-        std::ranges::any_of(column_of_numbers(members, k), [](double v) { return std::isfinite(v); }))
-      return k;
+  const size_t k = members.column_named("critical_value");
+  const auto is_number = [](double v) { return std::isfinite(v); };
+  const auto is_known = [](const std::optional<bool>& stands) { return stands.has_value(); };
+  if (std::ranges::any_of(column_of_numbers(members, k), is_number) ||
+      std::ranges::any_of(throughout, is_known))
+    return k;
   return {};
 }
 
@@ -191,7 +203,8 @@ bool EnsembleResults::censored() const {
 }
 
 bool EnsembleResults::some_fall() const {
-  return std::ranges::count(falls, 1) > 0;
+  const auto moves = [](const std::optional<bool>& stands) { return stands == false; };
+  return std::ranges::count(falls, 1) > 0 || std::ranges::any_of(throughout, moves);
 }
 
 IntervalEstimate EnsembleResults::probability(size_t count) const {
@@ -213,8 +226,26 @@ EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_
   out.members.name = ensemble.name;
   out.members.title = "The members of the ensemble";
   out.falls = falls_of(out.members);
+  out.throughout = stands_throughout(out.members);
   out.more_is_safer = more_is_safer(ensemble.runs, runs_folder);
   return out;
+}
+
+void find_results(std::vector<EnsembleResults>* ensembles) {
+  std::set<std::string> varying;
+  for (const EnsembleResults& one : *ensembles)
+    for (const size_t column : varying_columns(one.members)) varying.insert(one.members.columns[column].key);
+  for (EnsembleResults& one : *ensembles) {
+    const std::optional<size_t> critical = one.critical_column();
+    one.results.clear();
+    for (size_t column = 0; column < one.members.columns.size(); ++column) {
+      const auto is_number = [&](const auto& row) { return std::holds_alternative<double>(row[column]); };
+      if (critical ? column == *critical
+                   : varying.contains(one.members.columns[column].key) &&
+                         std::ranges::any_of(one.members.rows, is_number))
+        one.results.push_back(column);
+    }
+  }
 }
 
 std::string result_sentence(const EnsembleResults& ensemble) {

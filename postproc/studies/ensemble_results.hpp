@@ -14,11 +14,11 @@ namespace cupola {
 struct EnsembleResults {
   std::string name;
   const SampledRuns* runs = nullptr;
-  Table members;           ///< sweep_table()
-  std::vector<int> falls;  ///< falls_of() the members
-  std::vector<size_t> results =
-      {};                     ///< columns of `members` that vary in one of the ensembles to be compared
-  bool more_is_safer = true;  ///< of critical values
+  Table members;                                     ///< sweep_table()
+  std::vector<int> falls;                            ///< falls_of() the members
+  std::vector<std::optional<bool>> throughout = {};  ///< stands_throughout() of the members
+  std::vector<size_t> results = {};                  ///< columns of `members` that find_results() found
+  bool more_is_safer = true;                         ///< of critical values
 
   /// Number of independent replicates, see DrawnValues.
   int replicates() const;
@@ -27,18 +27,24 @@ struct EnsembleResults {
   /// Numbers of a column, of the first `count` members only. Critical values of members that fall, or stand,
   /// throughout their bracket are infinite.
   DrawnValues values(size_t column, size_t count = static_cast<size_t>(-1)) const;
+  /// The column of a result; nothing if it has no such result.
+  std::optional<size_t> result_named(const std::string& key) const;
   /// Column of the critical values; nothing without any. They, not how many fall, are the answer of limits:
   /// members may have no value to compare with them.
   std::optional<size_t> critical_column() const;
   /// Some critical values are infinite: they have quantiles, but no mean.
   bool censored() const;
-  bool some_fall() const;
+  bool some_fall() const;  ///< as they are, or throughout their bracket
   /// Share of the first `count` members with a verdict that fall. Members without a verdict widen the
   /// interval both ways; no interval unless members are independent.
   IntervalEstimate probability(size_t count) const;
 };
 
 EnsembleResults results_of(const SampledRuns& ensemble, const std::string& runs_folder);
+
+/// Finds the results of ensembles to be compared: the numbers that vary in one of them; of limits only the
+/// critical value, because the state in which they end says nothing about the structure under its own loads.
+void find_results(std::vector<EnsembleResults>* ensembles);
 
 /// Of limit analyses the median and two quantiles of the critical value, how many members have none, and the
 /// verdicts; else how many fall: "12 of 200 members fall: probability 6 % (3.1 to 10.2 %)". Members without a

@@ -53,24 +53,38 @@ std::vector<int> falls_of(const Table& table) {
   return out;
 }
 
+std::vector<std::optional<bool>> stands_throughout(const Table& table) {
+  const auto column = std::ranges::find(table.columns, kStandsAtBothEnds, &Table::Column::key);
+  std::vector<std::optional<bool>> out(table.rows.size());
+  if (column == table.columns.end()) return out;
+  for (size_t r = 0; r < out.size(); ++r)
+    if (const double* value = std::get_if<double>(&table.rows[r][column - table.columns.begin()]))
+      out[r] = *value == 1.0;
+  return out;
+}
+
 std::string failures(const Table& table, const std::string& noun) {
-  const auto failed = std::ranges::count_if(texts_of(table, "status"), [](const std::string& status) {
-    return status == "missing" || status == "unconverged";
-  });
+  const std::vector<std::string> statuses = texts_of(table, "status");
+  const std::vector<std::optional<bool>> throughout = stands_throughout(table);
+  int failed = 0;
+  for (size_t r = 0; r < statuses.size(); ++r)
+    failed += !throughout[r] && (statuses[r] == "missing" || statuses[r] == "unconverged");
   return failed == 0 ? "" : fmt::format("{} of {}", failed, counted(table.rows.size(), noun));
 }
 
 namespace {
 
-/// Rows whose structure falls whatever the value sought. A construction that falls with the mortar of its
-/// case may have a least mortar.
-std::vector<size_t> fallen_rows(const Table& table) {
+/// Rows whose structure stands, or falls, whatever the value sought: throughout a bracket, or by the status
+/// of a construction, which may have a least mortar if it falls with the mortar of its case.
+std::vector<size_t> rows_throughout(const Table& table, bool stand) {
   const std::vector<std::string> statuses = texts_of(table, "status");
+  const std::vector<std::optional<bool>> throughout = stands_throughout(table);
   const size_t critical = table.column_named("critical_value");
   std::vector<size_t> rows;
   for (size_t r = 0; r < statuses.size(); ++r) {
-    const double* value = std::get_if<double>(&table.rows[r][critical]);
-    if (falls(statuses[r]) && !(value && std::isfinite(*value))) rows.push_back(r);
+    if (std::holds_alternative<double>(table.rows[r][critical])) continue;
+    const bool does = stand ? stands(statuses[r]) : falls(statuses[r]);
+    if (throughout[r] ? *throughout[r] == stand : does) rows.push_back(r);
   }
   return rows;
 }
@@ -103,15 +117,6 @@ std::string critical_at(const std::vector<std::string>& keys, const Table& table
                      unit.empty() || unit == "factor" ? "" : " " + unit, settings_of(keys, table, row));
 }
 
-/// Rows of limits whose structure stands without a critical value.
-std::vector<size_t> rows_without_limit(const Table& table, size_t critical) {
-  const std::vector<std::string> statuses = texts_of(table, "status");
-  std::vector<size_t> rows;
-  for (size_t r = 0; r < statuses.size(); ++r)
-    if (stands(statuses[r]) && !std::holds_alternative<double>(table.rows[r][critical])) rows.push_back(r);
-  return rows;
-}
-
 /// "2 of 4 runs fall throughout the bracket, first at ...".
 std::string throughout(const char* verb, const std::vector<size_t>& rows,
                        const std::vector<std::string>& keys, const Table& table) {
@@ -129,7 +134,7 @@ std::string governing_member(const std::vector<std::string>& keys, const Table& 
   const auto worst = row_at_the_end(table, by, least_governs),
              best = row_at_the_end(table, by, !least_governs);
   if (!worst || !std::holds_alternative<double>(table.rows[*worst][critical])) return "";
-  const std::vector<size_t> fallen = fallen_rows(table), standing = rows_without_limit(table, critical);
+  const std::vector<size_t> fallen = rows_throughout(table, false), standing = rows_throughout(table, true);
   std::string text = "What governs: ";
   if (!fallen.empty()) text += throughout("fall", fallen, keys, table) + ". Of the others: ";
   text += fmt::format("critical value {}.", critical_at(keys, table, *worst, critical));

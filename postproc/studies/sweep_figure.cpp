@@ -113,7 +113,7 @@ Figure sweep_figure(const std::vector<SweptKey>& sweep, const Table& table) {
   for (const std::string& value : sweep.front().values)
     if (double x = 0.0; !read_number(value, &x).empty()) return f;
   const std::vector<int> falls = falls_of(table);
-  std::vector<size_t> columns = varying_columns({&table});
+  std::vector<size_t> columns = varying_columns(table);
   if (columns.size() > kMostPanels) columns.resize(kMostPanels);
   if (columns.empty()) return f;
   const auto curves = curves_of(table, sweep.size());

@@ -89,23 +89,38 @@ std::string progress(const std::string& runs_folder, const std::string& name) {
                      error.empty() ? "see the output of the run" : error);
 }
 
-/// Adds what joints with strength use of it, if the members have strength.
-void add_strength_columns(const std::vector<StudyRun>& members, const std::string& runs_folder, Table* t) {
-  const std::vector<Table::Column> columns = {
-      {"largest_pressure_Pa", "Pa", "largest pressure on a joint"},
-      {"largest_strength_use", "", "largest share of compressive or tensile strength that a joint uses"}};
-  std::vector<std::vector<Table::Cell>> cells;
-  bool any = false;
-  for (const StudyRun& member : members) {
-    RunFiles run(fmt::format("{}/{}", runs_folder, member.name));
-    std::vector<Table::Cell>& row = cells.emplace_back();
-    for (const Table::Column& column : columns) row.push_back(number_or_empty(run, "post." + column.key));
-    any = any || std::holds_alternative<double>(row.back());
+/// A result that only some analyses have.
+struct OptionalResult {
+  Table::Column column;
+  const char* key;                  ///< in the summaries
+  const char* only_with = nullptr;  ///< shown only where there is this number, by default the result itself
+};
+const OptionalResult kOptionalResults[] = {
+    {{"acceleration_g", "g", "least horizontal acceleration that makes it move"},
+     "results.robustness.acceleration_g"},
+    {{kStandsAtBothEnds, "",
+      "without a critical value: 1 if it stands at both ends of the bracket, 0 if it moves"},
+     "results.stands_at_both_ends"},
+    {{"largest_pressure_Pa", "Pa", "largest pressure on a joint"},
+     "post.largest_pressure_Pa",
+     "post.largest_strength_use"},
+    {{"largest_strength_use", "", "largest share of compressive or tensile strength that a joint uses"},
+     "post.largest_strength_use"}};
+
+/// Adds those that any of the members has.
+void add_optional_results(const std::vector<StudyRun>& members, const std::string& runs_folder, Table* t) {
+  for (const OptionalResult& result : kOptionalResults) {
+    std::vector<Table::Cell> cells;
+    bool any = false;
+    for (const StudyRun& member : members) {
+      RunFiles run(fmt::format("{}/{}", runs_folder, member.name));
+      cells.push_back(number_or_empty(run, result.key));
+      any |= run.number_if_any(result.only_with ? result.only_with : result.key).has_value();
+    }
+    if (!any) continue;
+    t->columns.push_back(result.column);
+    for (std::size_t i = 0; i < cells.size(); ++i) t->rows[i].push_back(cells[i]);
   }
-  if (!any) return;
-  t->columns.insert(t->columns.end(), columns.begin(), columns.end());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    t->rows[i].insert(t->rows[i].end(), cells[i].begin(), cells[i].end());
 }
 
 /// The value that the member gives the key, of which the last setting holds.
@@ -136,23 +151,20 @@ bool more_is_safer(const std::vector<StudyRun>& members, const std::string& runs
   return true;
 }
 
-std::vector<size_t> varying_columns(const std::vector<const Table*>& sweep_tables) {
-  static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds"};
+std::vector<size_t> varying_columns(const Table& table) {
+  static const std::set<std::string> kNoResults{"equilibrium_residual", "cpu_time_seconds",
+                                                kStandsAtBothEnds};
   constexpr double kRounding = 1e-6;  // statics are solved to 1e-8 of the loads
   std::vector<size_t> columns;
-  for (size_t k = 0; k < sweep_tables.front()->columns.size(); ++k) {
-    const auto varies = [k](const Table* table) {
-      double least = std::numeric_limits<double>::infinity(), most = -least;
-      for (const auto& row : table->rows)
-        if (const double* value = std::get_if<double>(&row[k]); value && std::isfinite(*value)) {
-          least = std::min(least, *value);
-          most = std::max(most, *value);
-        }
-      return most - least > kRounding * std::max(std::abs(least), std::abs(most));
-    };
-    if (!kNoResults.contains(sweep_tables.front()->columns[k].key) &&
-        std::ranges::any_of(sweep_tables, varies))
-      columns.push_back(k);
+  for (size_t k = 0; k < table.columns.size(); ++k) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const auto& row : table.rows)
+      if (const double* value = std::get_if<double>(&row[k]); value && std::isfinite(*value)) {
+        least = std::min(least, *value);
+        most = std::max(most, *value);
+      }
+    const bool varies = most - least > kRounding * std::max(std::abs(least), std::abs(most));
+    if (varies && !kNoResults.contains(table.columns[k].key)) columns.push_back(k);
   }
   return columns;
 }
@@ -195,7 +207,7 @@ Table sweep_table(const std::vector<std::string>& keys, const std::vector<StudyR
     t.rows.push_back(std::move(row));
   }
   add_limit_parameters(limit_parameters(members, runs_folder), &t);
-  add_strength_columns(members, runs_folder, &t);
+  add_optional_results(members, runs_folder, &t);
   add_range_columns(ranges, &t);
   return t;
 }

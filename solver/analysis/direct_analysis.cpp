@@ -188,6 +188,7 @@ void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimi
                          const AnalysisSinks& sinks, Summary* summary) {
   const std::string name = to_string(scene.analysis.limit.parameter);
   summary->message = name + varied_joints(scene.analysis.limit) + ": " + limit.message;
+  summary->stands_at_both_ends = limit.stands_at_both_ends;
   const bool stands = limit.gamma.size() > 0, moves = limit.mechanism.size() > 0;
   const double gravity = scene.loads.gravity.norm();
   RigidScene own = rigid_scene(scene, std::shared_ptr<const Assembly>(&assembly, [](const Assembly*) {}));

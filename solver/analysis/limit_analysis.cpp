@@ -241,6 +241,7 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
                                                : Status::unconverged;
   const std::string mechanism = write_frames(run, &summary);
   summary.status = status;
+  if (bracket.at_both_ends) summary.stands_at_both_ends = *bracket.at_both_ends == StaticOutcome::equilibrium;
   if (bracket.found)
     summary.critical =
         CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};

@@ -23,7 +23,8 @@ struct DirectTrial {
 /// there is none. If none was found, the state or the mechanism of one end of a search both of whose ends have
 /// it; neither if the search shows nothing.
 struct DirectLimit {
-  bool found = false;  ///< the bracket of the critical value
+  bool found = false;                       ///< the bracket of the critical value
+  std::optional<bool> stands_at_both_ends;  ///< not found: what it does at both ends of the search, if alike
   double admissible = 0.0, moving = 0.0;
   double span = 1.0;  ///< of the search, from one end to the other
   /// Just beyond `moving` the mechanism proves in exact arithmetic that no forces balance the loads

@@ -127,6 +127,7 @@ bool bears_tension(const ContactProblem& joints) {
 DirectLimit without_limit(Ends ends, double low, double high, LimitSearch::Parameter parameter,
                           bool more_bears_more, const DirectLimit& counts) {
   DirectLimit limit = not_found(counts, at_both_ends(ends.below.admissible(), low, high));
+  limit.stands_at_both_ends = ends.below.admissible();
   const bool needs_none =
       parameter == LimitSearch::Parameter::friction && low == kNoFriction && ends.below.admissible();
   if (needs_none)

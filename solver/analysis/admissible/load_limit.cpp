@@ -54,6 +54,7 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
         "the structure stands, and no load depends on the parameter: give the load that it multiplies, not 0 "
         "at the time 0");
     scene = scene_at(high);
+    limit.stands_at_both_ends = true;
     limit.gamma = solve_conic(scene.problem).gamma;
     limit.at_admissible = std::move(scene);
     return limit;
@@ -76,6 +77,7 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
     if (linear && grown.outcome == ConicOutcome::optimal)
       limit.message += fmt::format(" beyond about {:.4g}", in_unit(end + grown.multipliers[0]));
   }
+  limit.stands_at_both_ends = true;
   limit.gamma = solve_conic(scene.problem).gamma;
   limit.at_admissible = std::move(scene);
   return limit;
@@ -85,6 +87,7 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
 DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
                                const std::function<double(double)>& in_unit, DirectLimit limit) {
   limit = not_found(std::move(limit), at_both_ends(false, in_unit(low), in_unit(high)));
+  limit.stands_at_both_ends = false;
   RigidScene scene;
   const ConicProblem from_low = largest_multiplier(scene_at, low, 1.0, &scene);
   if (are_linear(scene_at, low, high)) {

@@ -53,19 +53,19 @@ class Objectives {
   const ForceScene& scene_;
 };
 
-/// A group of base blocks in words.
-std::string name_of(const BaseBlocks& blocks) {
-  switch (blocks.group) {
+/// A group of base blocks in words, which no other group of the model has.
+std::string name_of(const BaseBlocks& group, const std::set<int>& blocks) {
+  switch (group.group) {
     case BaseBlocks::Group::mid_sails:
-      return "mid-sails";
+      return "the mid-sails";
     case BaseBlocks::Group::listed:
-      return "listed blocks";
+      return fmt::format("{} {}", blocks.size() == 1 ? "block" : "blocks", fmt::join(blocks, ", "));
     case BaseBlocks::Group::herringbone:
-      return "herringbone blocks";
+      return "the herringbone blocks";
     case BaseBlocks::Group::ribs:
       break;
   }
-  return "ribs";
+  return "the ribs";
 }
 
 void require_exists(const char* what, const char* plural, int number, int count) {
@@ -151,18 +151,18 @@ std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction
 
 std::vector<RangeObjective> Objectives::operator()(const BaseShare& share) const {
   const std::set<int> blocks = base_blocks(share.of);
-  RangeObjective objective{fmt::format("share of the {}", name_of(share.of)), "", weight_of(blocks, 1.0),
+  RangeObjective objective{fmt::format("share of {}", name_of(share.of, blocks)), "", weight_of(blocks, 1.0),
                            weight_of(base_blocks(), 1.0)};
   return {objective};
 }
 
 std::vector<RangeObjective> Objectives::operator()(const BaseRatio& ratio) const {
-  const auto mean = [this](const BaseBlocks& group) {
-    const std::set<int> blocks = base_blocks(group);
+  const std::set<int> of = base_blocks(ratio.of), over = base_blocks(ratio.over);
+  const auto mean = [this](const std::set<int>& blocks) {
     return weight_of(blocks, 1.0 / static_cast<double>(blocks.size()));
   };
-  return {{fmt::format("ratio of the {} to the {}", name_of(ratio.of), name_of(ratio.over)), "",
-           mean(ratio.of), mean(ratio.over)}};
+  return {{fmt::format("ratio of {} to {}", name_of(ratio.of, of), name_of(ratio.over, over)), "", mean(of),
+           mean(over)}};
 }
 
 std::vector<RangeObjective> Objectives::operator()(const TieForce& tie) const {

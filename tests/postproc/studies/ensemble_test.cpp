@@ -269,8 +269,8 @@ TEST(EnsemblePage, MembersWithoutACriticalValueCountInItsQuantiles) {
       const double critical = i == 5 ? 3.0 : 2.0;
       scratch.write(
           ensemble.runs[i].name + "/results/summary.json",
-          i < 5    ? R"({"status": "moving"})"
-          : i == 7 ? R"({"status": "stable"})"
+          i < 5    ? R"({"status": "unconverged", "stands_at_both_ends": false})"  // the case itself stands
+          : i == 7 ? R"({"status": "stable", "stands_at_both_ends": true})"
                    : fmt::format(R"({{"status": "stable", "critical_value": {0}, "bracket": [{1}, {0}]}})",
                                  critical, critical + (more ? -0.1 : 0.1)));
     }
@@ -299,10 +299,12 @@ TEST(EnsemblePage, HasNoMeanDifferenceWhereAValueIsInfinite) {
   const ScratchFolder scratch;
   const std::vector<SampledRuns> ensembles = two_ensembles(scratch, 0.0, 2);
   for (const SampledRuns& ensemble : ensembles)
-    for (size_t i = ensemble.name == "b" ? 2 : 0; i < 8; ++i)
-      scratch.write(
-          ensemble.runs[i].name + "/results/summary.json",
-          fmt::format(R"({{"status": "stable", "critical_value": {}}})", (ensemble.name == "b" ? 2 : 1) + i));
+    for (size_t i = 0; i < 8; ++i)
+      scratch.write(ensemble.runs[i].name + "/results/summary.json",
+                    ensemble.name == "b" && i < 2
+                        ? R"({"status": "moving", "stands_at_both_ends": false})"
+                        : fmt::format(R"({{"status": "stable", "critical_value": {}}})",
+                                      (ensemble.name == "b" ? 2 : 1) + i));
   StudyPage page("Two", scratch.file("page"));
   const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
   const std::string said =
@@ -312,6 +314,33 @@ TEST(EnsemblePage, HasNoMeanDifferenceWhereAValueIsInfinite) {
   EXPECT_EQ(text.find("McNemar"), std::string::npos) << text;
   EXPECT_NE(read_text(scratch.file("page/differences.csv")).find("a less b,critical_value,6,,,,,,,,,"),
             std::string::npos);
+}
+
+// Joints with strength have results that dry ones lack, and limits none in common with statics.
+TEST(EnsemblePage, ComparesPairsByTheResultsThatBothHave) {
+  const ScratchFolder scratch;
+  std::vector<SampledRuns> ensembles = two_ensembles(scratch, 0.0, 0);
+  ensembles.push_back(ensembles.front());
+  ensembles.back().name = "limits";
+  ensembles.back().runs.clear();
+  for (size_t i = 0; i < 8; ++i) {
+    ensembles.back().runs.push_back({fmt::format("s/limits_{}", i), {}, {}});
+    scratch.write(ensembles.back().runs[i].name + "/results/summary.json",
+                  fmt::format(R"({{"status": "stable", "critical_value": {}}})", i));
+    scratch.write(
+        ensembles[1].runs[i].name + "/post/summary.json",
+        fmt::format(R"({{"widest_crack_m": {}, "largest_pressure_Pa": {}, "largest_strength_use": 1}})",
+                    0.1 * static_cast<double>(i) + 0.01, i));
+  }
+  StudyPage page("Three", scratch.file("page"));
+  const std::string text = add_ensembles(ensembles, scratch.folder(), &page);
+  page.write();
+  EXPECT_NE(text.find("a less b: widest_crack_m differs by -0.01 (-0.01 to -0.01)."), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("less limits"), std::string::npos) << text;
+  const std::string figure = read_text(scratch.file("page/figures/distributions.gp"));
+  for (const char* panel : {"widest crack", "largest pressure", "critical value"})
+    EXPECT_NE(figure.find(std::string("set xlabel '") + panel), std::string::npos) << panel;
 }
 
 TEST(EnsemblePage, ADifferenceShownComesBeforeOneThatIsNot) {
@@ -404,6 +433,9 @@ TEST(EnsemblePage, LimitsHaveNoProbabilityOfFalling) {
   for (size_t i = 0; i < 21; ++i)
     scratch.write(ensemble.runs[i].name + "/results/summary.json",
                   fmt::format(R"({{"status": "stable", "critical_value": {}}})", 1.0 + i));
+  for (size_t i = 21; i < 23; ++i)
+    scratch.write(ensemble.runs[i].name + "/results/summary.json",
+                  R"({"status": "moving", "stands_at_both_ends": false})");
   scratch.write(ensemble.runs[0].name + "/post/answers.json", R"({"verdict": {"words": "It falls"}})");
   StudyPage page("One", scratch.file("page"));
   const std::string text = add_ensembles({ensemble}, scratch.folder(), &page);

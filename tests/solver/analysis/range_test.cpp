@@ -205,6 +205,8 @@ TEST(Range, ShareAndRatioOfTheBase) {
   ASSERT_EQ(summary.ranges.size(), 2u) << summary.message;
   expect_ends(summary.ranges[0], least / (least + most), most / (least + most), 1.0);
   expect_ends(summary.ranges[1], least / most, most / least, 1.0);
+  EXPECT_EQ(summary.ranges[0].quantity, "share of block 1") << "a name of its own for each list";
+  EXPECT_EQ(summary.ranges[1].quantity, "ratio of block 1 to block 2");
 }
 
 // At both ends of a ratio, whose forces are found up to a factor, the strength of the feet is used but not
