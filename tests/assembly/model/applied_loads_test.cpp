@@ -47,10 +47,9 @@ TEST(AppliedLoads, ALanternWeighsItsNewtonsOrItsMass) {
 TEST(AppliedLoads, AFillIsDeadLoadUnlessItHasATimeOfItsOwn) {
   Case scene;
   scene.loads.dead_load_time = RampInTime{0.2, 1.0, 0.0, 1.0};
-  scene.loads.faces = {
-      {.fill = Fill{.level = 2.0, .unit_weight = 16000}},
-      {.time = RampInTime{0.0, 1.0, 1.0, 1.0}, .fill = Fill{.level = 2.0, .unit_weight = 16000}},
-      {.pressure = 100.0}};
+  scene.loads.faces.resize(3);
+  scene.loads.faces[0].fill = scene.loads.faces[1].fill = Fill{2.0, {}, 16000.0};
+  scene.loads.faces[1].time = RampInTime{0.0, 1.0, 1.0, 1.0};
   const auto factors = [](const Loads& loads, double time) {
     std::vector<double> at;
     const std::vector<TimeFunction> times = load_times(loads);
