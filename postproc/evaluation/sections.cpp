@@ -14,10 +14,10 @@
 namespace cupola {
 namespace {
 
-/// m, mean height of a bed, of the last one that of its facets.
+/// m, mean height of a bed, of one that closes a stack that of its facets.
 double height_of(const Evaluation& e, int bed) {
-  if (bed < static_cast<int>(e.rings.size())) return e.rings[bed].height;
-  const std::vector<BedFacet>& facets = e.shell.beds.back();
+  if (!e.shell.closes(bed)) return e.rings[bed].height;
+  const std::vector<BedFacet>& facets = e.shell.beds[bed];
   double sum = 0.0;
   for (const BedFacet& f : facets)
     for (const Vec3& corner : {f.intrados_a, f.intrados_b, f.extrados_a, f.extrados_b})
@@ -32,7 +32,8 @@ std::vector<std::vector<int>> flights_of(const Evaluation& e, int first, int end
   for (int k = first; k < end; ++k)
     if (e.rings[k].blocks > 0) beds.push_back(k);
   if (beds.empty() || e.assembly.axis_of(first).thrust_lines != Sheet::ThrustLines::one) return {beds};
-  if (end == e.shell.num_rings() && beds.back() + 1 == end && !e.shell.beds[end].empty()) beds.push_back(end);
+  const int closing = e.shell.bed_above(end - 1);
+  if (beds.back() + 1 == end && !e.shell.beds[closing].empty()) beds.push_back(closing);
   const auto crown = std::ranges::max_element(beds, {}, [&](int bed) { return height_of(e, bed); });
   return {{beds.begin(), crown + 1}, {crown + 1, beds.end()}};
 }
@@ -113,9 +114,11 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Asse
   return sections;
 }
 
-std::string beds_text(const SectionEvaluation& section, const std::string& course) {
+std::string beds_text(const Shell& shell, const SectionEvaluation& section, const std::string& course) {
   if (section.beds.empty()) return "none";
-  return fmt::format("{}{} {}", course, section.beds.size() == 1 ? "" : "s", fmt::join(section.beds, ", "));
+  std::vector<int> numbers;
+  for (const int bed : section.beds) numbers.push_back(shell.number_of(bed));
+  return fmt::format("{}{} {}", course, numbers.size() == 1 ? "" : "s", fmt::join(numbers, ", "));
 }
 
 }  // namespace cupola

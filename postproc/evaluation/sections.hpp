@@ -13,6 +13,6 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& evaluation, c
                                                  const std::vector<bool>& left_out);
 
 /// The courses above the beds of a section: "ring 3", "courses 3, 40", "none".
-std::string beds_text(const SectionEvaluation& section, const std::string& course);
+std::string beds_text(const Shell& shell, const SectionEvaluation& section, const std::string& course);
 
 }  // namespace cupola

@@ -64,7 +64,7 @@ std::string caption_of(const Evaluation& e, const SectionEvaluation& section, co
          fmt::format(
              " Arrows: horizontal part of the resultants across the bed of the nearest {}, on the part "
              "above. Bars: norm of the resultant of each block{}. Their vertical parts add up to {:.5g} {}.",
-             beds_text(section, is_vault(e) ? "ring" : "course"),
+             beds_text(e.shell, section, is_vault(e) ? "ring" : "course"),
              forces.norms_upright.empty() ? "" : ", orange for upright blocks",
              sum.per_newton * forces.vertical, sum.name);
 }

@@ -9,37 +9,11 @@
 
 #include "assembly/base/disjoint_sets.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
-#include "postproc/mechanics/layer_facets.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
-#include "postproc/mechanics/skin_facet.hpp"
 
 namespace cupola {
 
 namespace {
-
-/// The facets of a block on the bed behind its last course. Behind the last course of a stack lies the first
-/// bed of another, so that the shell has no bed for its end.
-std::vector<BedFacet> end_facets(const Assembly& assembly, int block, const Shell& shell) {
-  constexpr double kSideways = 0.1;  // as of the beds of the shell
-  Shell end;
-  end.beds.resize(1);
-  LayerFacets layers(assembly);
-  const int last = assembly.blocks[block].ring + assembly.blocks[block].num_rings - 1;
-  auto part = std::ranges::lower_bound(assembly.parts, block, {}, &Part::block);
-  for (; part != assembly.parts.end() && part->block == block; ++part)
-    for (int f = part->face_start; part->ring == last && f < part->face_start + part->num_faces; ++f) {
-      const FaceKind kind = assembly.face_kinds[f];
-      const Vec3 normal = polygon_plane(face_points(assembly, f)).normal;
-      if (kind != FaceKind::bed && kind != FaceKind::top) continue;
-      if (normal.dot(shell.direction(last)) <= kSideways) continue;
-      if (assembly.vertex_layers.empty())
-        add_skin_facet(assembly, *part, f, end.beds.data());
-      else
-        layers.add(*part, f, 0);
-    }
-  layers.add_to(&end);
-  return end.beds[0];
-}
 
 Vec3 middle_of(const BedFacet& f) {
   return 0.25 * (f.intrados_a + f.intrados_b + f.extrados_a + f.extrados_b);
@@ -73,26 +47,20 @@ double share_covered(const std::vector<BedFacet>& bed, const BedFacet& at) {
 double length_of(const JointWrench& joint, const Assembly& assembly, int carried, const Shell& shell) {
   const Block& block = assembly.blocks[carried];
   double length = std::numeric_limits<double>::quiet_NaN(), least = std::numeric_limits<double>::infinity();
-  const auto search = [&](const std::vector<BedFacet>& facets, const std::vector<BedFacet>& bed) {
+  for (const int bed : {block.ring, shell.bed_above(block.ring + block.num_rings - 1)}) {
+    if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
     const BedFacet* nearest = nullptr;
-    for (const BedFacet& f : facets) {
+    for (const BedFacet& f : shell.beds[bed]) {
       const double distance = (middle_of(f) - joint.centroid).squaredNorm();
       if (distance >= least) continue;
       least = distance;
       nearest = &f;
     }
-    if (!nearest) return;
+    if (!nearest) continue;
     const BedFacet& f = *nearest;
     const double area = polygon_area(std::array{f.intrados_a, f.intrados_b, f.extrados_b, f.extrados_a});
     const double edges = 0.5 * ((f.intrados_b - f.intrados_a).norm() + (f.extrados_b - f.extrados_a).norm());
-    length = joint.area * (f.to - f.from) / share_covered(bed, f) * edges / area;
-  };
-  for (const int bed : {block.ring, block.ring + block.num_rings}) {
-    if (bed < 0 || bed >= static_cast<int>(shell.beds.size())) continue;
-    if (assembly.sheet_of(bed) && assembly.stack_of(bed) != assembly.stack_of(block.ring))
-      search(end_facets(assembly, carried, shell), shell.beds[block.ring]);
-    else
-      search(shell.beds[bed], shell.beds[bed]);
+    length = joint.area * (f.to - f.from) / share_covered(shell.beds[bed], f) * edges / area;
   }
   return length;
 }

@@ -150,8 +150,14 @@ double wrapped(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }
 
+int Shell::bed_above(int ring) const {
+  const auto stack = std::ranges::find(ends, ring + 1);
+  return stack == ends.end() ? ring + 1 : num_rings() + static_cast<int>(stack - ends.begin());
+}
+
 const Vec3& Shell::direction(int ring) const {
-  return progress.empty() ? up : progress[std::clamp(ring, 0, num_rings() - 1)];
+  if (progress.empty()) return up;
+  return progress[closes(ring) ? number_of(ring) - 1 : std::max(ring, 0)];
 }
 
 double Shell::wythes_inside(int block) const {
@@ -176,7 +182,9 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
   const int num_rings = rings_present(assembly);
   if (num_rings == 0) return shell;
   shell.progress = progress_directions(assembly, num_rings, up);
-  shell.beds.resize(static_cast<size_t>(num_rings) + 1);
+  for (int ring = 0; ring < num_rings; ring = shell.ends.back())
+    shell.ends.push_back(std::min(assembly.stack_of(ring).second, num_rings));
+  shell.beds.resize(static_cast<size_t>(num_rings) + shell.ends.size());
   set_wythes(assembly, &shell);
   const bool has_layers = !assembly.vertex_layers.empty();
   LayerFacets facets(assembly);
@@ -189,6 +197,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
   for (const Part& part : assembly.parts) {
     if (part.ring < 0) continue;
     const Block& block = assembly.blocks[part.block];
+    const int above = shell.bed_above(part.ring);
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
       const FaceKind kind = assembly.face_kinds[f];
       const bool joint = kind == FaceKind::bed || kind == FaceKind::top;
@@ -197,23 +206,23 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
       const double along = polygon_plane(face_points(assembly, f)).normal.dot(shell.progress[part.ring]);
       constexpr double kSideways = 0.1;  // internal faces between slices are perpendicular to this direction
       if (along < -kSideways) add(part, f, part.ring);
-      if (along > kSideways && joint && part.ring == num_rings - 1) add(part, f, num_rings);
+      if (along > kSideways && joint && shell.closes(above)) add(part, f, above);
       if (has_layers && joint && std::abs(along) > kSideways)
         for (const int v : assembly.face(f)) {
           if (assembly.vertex_layers[v] < 0) continue;  // of a cut
-          double& share = shell.layers[part.ring + (along > 0.0 ? 1 : 0)][assembly.vertex_layers[v]];
+          double& share = shell.layers[along > 0.0 ? above : part.ring][assembly.vertex_layers[v]];
           if (along < 0.0 || std::isnan(share))
             share = assembly.vertex_depths[v];  // a drum may be as wide below
         }
     }
   }
   facets.add_to(&shell);
-  for (int k = 0; k <= num_rings; ++k)
-    shell.blocks.push_back(
-        blocks_on(shell.beds[k], assembly.axis_of(assembly.stack_of(std::min(k, num_rings - 1)).first)));
-  while (static_cast<int>(shell.block_width_rad.size()) < num_rings) {
+  for (int bed = 0; bed < static_cast<int>(shell.beds.size()); ++bed) {
+    const int ring = shell.closes(bed) ? shell.number_of(bed) - 1 : bed;
+    shell.blocks.push_back(blocks_on(shell.beds[bed], assembly.axis_of(assembly.stack_of(ring).first)));
+  }
+  for (const int end : shell.ends) {
     const int first = static_cast<int>(shell.block_width_rad.size());
-    const int end = std::min(assembly.stack_of(first).second, num_rings);
     shell.block_width_rad.resize(static_cast<size_t>(end), standard_width(assembly, shell, first, end));
   }
   return shell;

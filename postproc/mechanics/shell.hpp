@@ -10,7 +10,7 @@ namespace cupola {
 /// One facet of a bed: its inner and its outer edge, both from side a to side b. They lie on the intrados and
 /// the extrados, or on layers between wythes.
 struct BedFacet {
-  int block = 0;  ///< block above the bed; block below it for the last bed
+  int block = 0;  ///< block above the bed; block below it for a bed that closes a stack
   Vec3 intrados_a, intrados_b, extrados_a, extrados_b;  ///< m
   bool internal = false;        ///< the bed runs through a block that spans several rings
   double from = 0.0, to = 1.0;  ///< shares of the thickness of the shell at the inner and the outer edge
@@ -34,10 +34,12 @@ struct WytheRange {
 };
 
 /// An assembly seen as a shell of rings: bed k lies below ring k, counted from the springing, and bed
-/// num_rings closes the last ring. Imported blocks without rings have no beds.
+/// num_rings + i closes stack i: the first bed of the next one lies elsewhere. Imported blocks without rings
+/// have no beds.
 struct Shell {
-  std::vector<std::vector<BedFacet>> beds;    ///< (num_rings + 1), facets of each bed
-  std::vector<std::vector<BlockBed>> blocks;  ///< (num_rings + 1), those on each bed, by their numbers
+  std::vector<std::vector<BedFacet>> beds;    ///< (num_rings + stacks), facets of each bed
+  std::vector<std::vector<BlockBed>> blocks;  ///< (num_rings + stacks), those on each bed, by their numbers
+  std::vector<int> ends;                      ///< (stacks), the ring behind the last one of each
   std::vector<Vec3> progress;                 ///< (num_rings), unit direction from ring to ring
   Vec3 up = Vec3::UnitZ();                    ///< against gravity
   /// (num_rings), rad, middle width in azimuth of the standard blocks of the stack, of all where none is.
@@ -45,17 +47,21 @@ struct Shell {
   int num_wythes = 1;              ///< numbers in use; some may have no blocks
   std::vector<int> innermost;      ///< (num_wythes), number of the innermost wythe of the same drum or shell
   std::vector<WytheRange> wythes;  ///< per block, those that it occupies; all for supports
-  /// (num_rings + 1) x (num_wythes + 1), share of the thickness at each layer of a bed; NaN where no facet
+  /// (num_rings + stacks) x (num_wythes + 1), share of the thickness at each layer of a bed; NaN where no facet
   /// has it.
   std::vector<std::vector<double>> layers;
   int num_rings() const { return static_cast<int>(progress.size()); }
+  bool closes(int bed) const { return bed >= num_rings(); }
+  int bed_above(int ring) const;
+  /// Number of a bed in its stack, which begins with that of the first ring.
+  int number_of(int bed) const { return closes(bed) ? ends[bed - num_rings()] : bed; }
   /// Wythes between the innermost one of its drum or shell and the middle of a free block.
   double wythes_inside(int block) const;
   /// True for the only wythe of a drum or shell.
   bool is_alone(int wythe) const;
   /// Largest number of wythes of a drum or shell.
   int most_wythes() const;
-  /// Unit direction from ring to ring at the given ring; up for a shell without rings.
+  /// Unit direction from ring to ring at the given ring or bed; up for a shell without rings.
   const Vec3& direction(int ring) const;
 };
 Shell shell_of(const Assembly& assembly, const Vec3& up);

@@ -34,9 +34,9 @@ struct Route {
   std::optional<int> wythe;
 };
 
-/// The bed and base joints of a block on a bed: on the last one those over it, else those under it.
+/// The bed and base joints of a block on a bed: on one that closes a stack those over it, else those under it.
 std::vector<const JointWrench*> joints_on(const ThrustInput& in, int block, int bed) {
-  const bool over = bed == in.shell->num_rings();
+  const bool over = in.shell->closes(bed);
   std::vector<const JointWrench*> joints;
   for (const int i : in.joints->of_block[block]) {
     const JointWrench& joint = in.joints->wrenches[i];
@@ -97,12 +97,11 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
   return w;
 }
 
-/// Wrench of a block on the support above the last bed of an arch; zero under a free edge.
-Wrench wrench_onwards(const ThrustInput& in, int block) {
+/// Wrench of a block on what lies above the bed that closes its stack; zero under a free edge.
+Wrench wrench_onwards(const ThrustInput& in, int block, int bed) {
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  for (const JointWrench* joint : joints_on(in, block, in.shell->num_rings()))
-    w.add(wrench_on(*joint, joint->upper));
+  for (const JointWrench* joint : joints_on(in, block, bed)) w.add(wrench_on(*joint, joint->upper));
   return w;
 }
 
@@ -175,7 +174,7 @@ bool find_skins(const ThrustInput& in, int bed, const Layers& layers, const Rout
 /// several.
 bool is_undivided(const ThrustInput& in, int block, int bed) {
   if (in.shell->wythes[block].count() == 1) return false;
-  if (bed < in.shell->num_rings() && in.assembly->blocks[block].ring != bed) return true;
+  if (!in.shell->closes(bed) && in.assembly->blocks[block].ring != bed) return true;
   return std::ranges::any_of(joints_on(in, block, bed), [&](const JointWrench* joint) {
     return !joint->negligible && wythes_of(*in.assembly, *in.shell, *joint).count() > 1;
   });
@@ -237,7 +236,7 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
     if (w.force.norm() == 0.0) continue;
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
     sum.add(share * turned(in, id, w, turn, route.axis));
-    const bool stands = bed == in.shell->num_rings() || in.assembly->blocks[id].ring == bed;
+    const bool stands = in.shell->closes(bed) || in.assembly->blocks[id].ring == bed;
     // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
     // block's wrench; that of a bent stone runs inside its bend.
     const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian || block.facets.size() > 1);
@@ -260,12 +259,11 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
 void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, const Route& route,
                           ThrustPoint* point) {
   constexpr double kLeastShare = 1e-6;
-  const bool last = bed == in.shell->num_rings();
   const ContactTable& c = *in.contacts;
   double force = 0.0, area = 0.0;
   for (const BlockBed& block : in.shell->blocks[bed]) {
     if (route.meridian && overlap(block, *route.meridian, route.width) <= 0.0) continue;
-    if (!last && in.assembly->blocks[block.block].ring != bed) continue;
+    if (!in.shell->closes(bed) && in.assembly->blocks[block.block].ring != bed) continue;
     for (const JointWrench* of_block : joints_on(in, block.block, bed)) {
       const JointWrench& joint = *of_block;
       if (joint.negligible) continue;
@@ -330,16 +328,14 @@ std::vector<std::vector<Vec3>> ThrustLine::runs() const {
 }
 
 Wrench wrench_at_bed(const ThrustInput& in, int block, int bed) {
-  CUPOLA_ASSERT(bed >= 0 && bed <= in.shell->num_rings());
-  if (bed == in.shell->num_rings()) return wrench_onwards(in, block);
+  CUPOLA_ASSERT(bed >= 0 && bed < static_cast<int>(in.shell->beds.size()));
+  if (in.shell->closes(bed)) return wrench_onwards(in, block, bed);
   return in.assembly->blocks[block].ring == bed ? in.from_below[block] : wrench_through(in, block, bed);
 }
 
 ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::optional<double> azimuth_deg,
                        std::optional<int> wythe, int ring) {
   CUPOLA_ASSERT(input.from_below.size() == input.assembly->blocks.size());
-  CUPOLA_ASSERT(input.shell->num_rings() == 0 ||
-                static_cast<int>(input.shell->beds.size()) == input.shell->num_rings() + 1);
   ThrustLine line;
   line.name = name;
   line.azimuth_deg = azimuth_deg.value_or(0.0);
@@ -354,10 +350,11 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
   const Route route{line.axis, width, meridian, wythe};
   std::optional<WytheRange> wythes;
   if (wythe) wythes = WytheRange{*wythe, *wythe + 1};
-  const int last = end < input.shell->num_rings() ? end - 1 : input.shell->num_rings();
-  for (int bed = first; bed <= last; ++bed) {
+  const int last = std::min(end, input.shell->num_rings());
+  for (int number = first; number <= last; ++number) {
+    const int bed = number < last ? number : input.shell->bed_above(last - 1);
     ThrustPoint point;
-    point.bed = bed;
+    point.bed = number;
     const std::optional<Layers> layers = layers_of(*input.shell, bed, wythes);
     if (!layers || !find_skins(input, bed, *layers, route, &point)) continue;
     if (!sum_strip(input, bed, *layers, route, &point)) continue;

@@ -18,7 +18,7 @@ namespace cupola {
 /// Its position is undefined if the resultant runs along the bed or is negligible: `position`, `point`,
 /// `face_distance` and `geometric_safety` are then NaN, and so is the couple length of a negligible one.
 struct ThrustPoint {
-  int bed = 0;
+  int bed = 0;              ///< its number in the stack
   int blocks = 0;           ///< number of blocks in the strip
   Vec3 intrados, extrados;  ///< m, of the bed in the meridian plane
   /// Through the thickness: 0 on the intrados, 1 on the extrados.

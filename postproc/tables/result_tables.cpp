@@ -139,7 +139,7 @@ Table tie_table(const Evaluation& e) {
 Table section_table(const Evaluation& e, const SectionEvaluation& section) {
   Table table = make_table(fmt::format("section_{:g}m", section.height),
                            fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m ({})",
-                                       section.height, beds_text(section, "ring")),
+                                       section.height, beds_text(e.shell, section, "ring")),
                            section_columns(), section.resultants);
   return with_member_names(e.assembly, std::move(table));
 }

@@ -92,7 +92,7 @@ TEST(Sections, HaveTheNearestBedOfEveryStack) {
   ASSERT_EQ(e.sections[0].resultants.size(), 2u);
   for (const BedResultant& r : e.sections[0].resultants)
     EXPECT_NEAR(r.wrench.force.z(), kBlockWeight, 1e-9 * kBlockWeight);
-  EXPECT_EQ(beds_text(e.sections[0], "course"), "courses 2, 5");
+  EXPECT_EQ(beds_text(e.shell, e.sections[0], "course"), "courses 2, 5");
 }
 
 // The second column stands where the first one ends: there, and above, the bed is one of its own. Above both

@@ -316,6 +316,26 @@ TEST(ThrustLine, OfAnArchIsAtTheContactPoints) {
   for (const ThrustPoint& p : line.points) EXPECT_NEAR(p.position, 0.5, 1e-12) << p.bed;
 }
 
+// A rib of one block under a web of two, each a stack of its own: the line of either ends with the bed that
+// closes it, here on the web with the weight of that, there free.
+TEST(ThrustLine, OfEveryStackHasTheBedThatClosesIt) {
+  Assembly a = test::column(3);
+  using enum Sheet::ThrustLines;
+  a.sheets = {{.name = "rib", .num_rings = 1, .thrust_lines = one},
+              {.name = "web", .first_ring = 1, .num_rings = 2, .thrust_lines = one}};
+  const Frame frame = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.3);
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  const JointWrenches joints = joint_wrenches(a, frame.contacts, shell);
+  const ThrustInput input{&a,           &shell, &frame.contacts, &joints, wrenches_from_below(a, joints),
+                          {0, 0, -9.81}};
+  const ThrustLine rib = thrust_line(input, "rib", std::nullopt, std::nullopt, 0);
+  ASSERT_EQ(rib.points.size(), 2u);
+  EXPECT_EQ(rib.points[1].bed, 1);
+  EXPECT_NEAR(rib.points[1].v, 2.0 * 0.48 * 1800.0 * 9.81, 1e-6) << "rounding of sums";
+  EXPECT_NEAR((rib.points[1].point - Vec3(0.6, 0.3, 0.5)).norm(), 0.0, 1e-12) << "rounding";
+  EXPECT_EQ(thrust_line(input, "web", std::nullopt, std::nullopt, 1).points.size(), 2u);
+}
+
 // On a path, forces act where the blocks stood when their contacts were found, not where the step moved them:
 // the line is that of the column as built, moved there.
 TEST(ThrustLine, StandsWhereTheContactsWereFound) {
