@@ -265,7 +265,7 @@ std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& 
                     !at_rest(e)                   ? lack_of_equilibrium(e.summary, e.last.frame.role)
                     : is_stage(e.last.frame.role) ? "the supports of the course laid last feel none"
                     : e.assembly.sheets.empty()
-                        ? "the blocks have neither courses nor an axis; geometry.import.axis gives one"
+                        ? "no courses, no axis: geometry.import.axis is for rings; import arches singly"
                         : "a wall has no outside"));
   const std::vector<std::string> warnings = notices(e);
   out.push_back(fmt::format("  {:<9} {}", "warnings",
