@@ -20,6 +20,18 @@ namespace {
 constexpr int kMostParts = 2000;    // per block
 constexpr double kRounding = 1e-9;  // of the block size: smaller distances are rounding
 
+/// The point from which the corners of a block are counted: the origin of the world up to 128 sizes away,
+/// where rounding is some 1e-13 of the block, far below the tolerances of volumes. Corners less a multiple of
+/// a power of two that is not below the size are exact.
+Vec3 origin_near(const TriangleMesh& mesh) {
+  constexpr double kNear = 128.0;  // sizes
+  const double unit = std::exp2(std::ceil(std::log2(mesh_size(mesh))));
+  const auto multiple = [&](double x) {
+    return std::abs(x) < kNear * unit ? 0.0 : unit * std::round(x / unit);
+  };
+  return mesh.vertices.front().unaryExpr(multiple);
+}
+
 bool is_convex(const TriangleMesh& mesh, const std::vector<Facet>& facets, double tolerance) {
   for (const Facet& facet : facets)
     for (const Vec3& v : mesh.vertices)
@@ -138,10 +150,9 @@ double volume_of(const std::vector<ConvexPolyhedron>& parts) {
   return volume;
 }
 
-}  // namespace
-
-Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
-                        const DecompositionOptions& options) {
+/// decompose() of a block whose coordinates are of its size.
+Decomposition decompose_near(const TriangleMesh& mesh, const std::string& name,
+                             const DecompositionOptions& options) {
   const double size = mesh_size(mesh);
   std::vector<int> facet_of;
   const std::vector<Facet> facets = find_facets(mesh, options.facet_angle, options.flat * size, &facet_of);
@@ -192,6 +203,22 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
                                        !contains_surface(mesh, facets, part, f, tolerance));
   }
   return result;
+}
+
+}  // namespace
+
+Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
+                        const DecompositionOptions& options) {
+  const Vec3 origin = origin_near(mesh);
+  if (origin.isZero(0.0)) return decompose_near(mesh, name, options);
+  TriangleMesh near = mesh;
+  for (Vec3& vertex : near.vertices) vertex -= origin;
+  Decomposition pieces = decompose_near(near, name, options);
+  for (ConvexPolyhedron& part : pieces.parts) {
+    for (Vec3& vertex : part.vertices) vertex += origin;
+    for (Plane& plane : part.planes) plane.offset += plane.normal.dot(origin);
+  }
+  return pieces;
 }
 
 }  // namespace cupola

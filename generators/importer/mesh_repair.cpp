@@ -92,6 +92,50 @@ int drop_doubled_faces(PolygonMesh* mesh) {
   return static_cast<int>(std::erase_if(mesh->faces, [&](const auto& face) { return !is_new(face); }));
 }
 
+/// Which corner of a triangle lies within `distance` (m) of its opposite side, between the ends of that; -1 if
+/// none does.
+int corner_on_side(const PolygonMesh& mesh, const std::vector<int>& face, double distance) {
+  for (int i = 0; face.size() == 3 && i < 3; ++i) {
+    const Vec3& from = mesh.vertices[face[(i + 1) % 3]];
+    const Vec3 side = mesh.vertices[face[(i + 2) % 3]] - from, to_corner = mesh.vertices[face[i]] - from;
+    const double share = side.dot(to_corner) / side.squaredNorm();
+    if (share > 0.0 && share < 1.0 && (to_corner - share * side).norm() <= distance) return i;
+  }
+  return -1;
+}
+
+/// Makes a vertex a corner of a face between two of its neighbouring corners. False if it has no such pair.
+bool insert_between(int a, int b, int vertex, std::vector<int>* face) {
+  for (size_t i = 0; i < face->size(); ++i) {
+    const int from = (*face)[i], to = (*face)[(i + 1) % face->size()];
+    if (std::minmax(from, to) != std::minmax(a, b)) continue;
+    face->insert(face->begin() + static_cast<std::ptrdiff_t>(i) + 1, vertex);
+    return true;
+  }
+  return false;
+}
+
+/// Drops triangles of three corners on a line, as a fan makes of a face with a corner on a side: the face
+/// across the longest side gets the third corner.
+void drop_flat_triangles(PolygonMesh* mesh, double distance) {
+  std::vector<int> middle;
+  for (const auto& face : mesh->faces) middle.push_back(corner_on_side(*mesh, face, distance));
+  for (bool changed = true; changed;) {  // the face across may be such a triangle, too, and goes first
+    changed = false;
+    for (size_t f = 0; f < middle.size(); ++f) {
+      if (middle[f] < 0) continue;
+      const auto corner = [&, face = mesh->faces[f]](int i) { return face[(middle[f] + i) % 3]; };
+      for (size_t g = 0; g < middle.size() && middle[f] >= 0; ++g) {
+        if (middle[g] >= 0 || !insert_between(corner(1), corner(2), corner(0), &mesh->faces[g])) continue;
+        mesh->faces[f].clear();
+        middle[f] = -1;
+        changed = true;
+      }
+    }
+  }
+  std::erase_if(mesh->faces, [](const auto& face) { return face.empty(); });
+}
+
 bool has_corner_twice(std::vector<int> face) {
   std::ranges::sort(face);
   return std::ranges::adjacent_find(face) != face.end();
@@ -149,8 +193,10 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
     else if (v.cwiseAbs().maxCoeff() > kFarthest)
       fail(block, fmt::format("a coordinate of {:.3g} m: correct it, or geometry.import.metres_per_unit",
                               v.cwiseAbs().maxCoeff()));
-  PolygonMesh welded = weld_vertices(block.mesh, weld * extent(block.mesh.vertices));
+  const double distance = weld * extent(block.mesh.vertices);
+  PolygonMesh welded = weld_vertices(block.mesh, distance);
   const int dropped = drop_doubled_faces(&welded);
+  drop_flat_triangles(&welded, distance);
   if (doubled) *doubled = dropped;
   if (welded.faces.empty()) fail(block, "all faces have zero area");
   std::vector<Point> points;

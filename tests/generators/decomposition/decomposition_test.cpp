@@ -101,6 +101,38 @@ TEST(Decomposition, MarksInternalFaces) {
   EXPECT_LE(free_area, surface + 1.0 + 1e-9);  // one side of the cut may be in a free face
 }
 
+// A stone of a drum that bends at three joints. Map coordinates have rounding of 2e-12 m, and what is computed
+// from them more.
+TEST(Decomposition, DoesNotDependOnTheDistanceFromTheOrigin) {
+  RawBlock block;
+  block.mesh.vertices = {{9996.871971185235, -6999.362906685193, 300.3},
+                         {9996.382561064785, -7000.21058987955, 300.3},
+                         {9995.631368535307, -7000.111693506875, 300.3},
+                         {9996.219675028431, -6999.092716770361, 300.3},
+                         {9996.978815394134, -6999.40716300558, 301.4195844023849},
+                         {9996.348134564056, -6999.145926452233, 301.60249831394447},
+                         {9995.797066668385, -7000.133508079941, 301.67727577644126},
+                         {9996.519910212186, -7000.228672237847, 301.481919129429},
+                         {9996.1, -7000.7, 300.3},
+                         {9995.291709623134, -7000.7, 300.3},
+                         {9995.489603812188, -7000.7, 301.74971128925694},
+                         {9996.263556033813, -7000.7, 301.5423314164921},
+                         {9996.382561064785, -7001.18941012045, 300.3},
+                         {9995.631368535307, -7001.288306493125, 300.3},
+                         {9995.797066668385, -7001.266491920059, 301.67727577644126},
+                         {9996.519910212186, -7001.171327762153, 301.481919129429}};
+  block.mesh.faces = {{0, 1, 2, 3},     {4, 5, 6, 7}, {0, 3, 5, 4}, {0, 4, 7},      {0, 7, 1},
+                      {2, 6, 5},        {2, 5, 3},    {1, 8, 9, 2}, {7, 6, 10, 11}, {1, 7, 11},
+                      {1, 11, 8},       {9, 10, 6},   {9, 6, 2},    {8, 12, 13, 9}, {11, 10, 14, 15},
+                      {12, 15, 14, 13}, {11, 15, 12}, {11, 12, 8},  {9, 13, 14},    {9, 14, 10}};
+  const TriangleMesh mesh = repair_mesh(block, 1e-6);
+  const Decomposition d = decompose(mesh, "stone");
+  EXPECT_EQ(d.parts.size(), 3u);
+  EXPECT_NE(d.method, Decomposition::Method::nef);
+  EXPECT_NEAR(volume_of(d.parts), mesh_volume(mesh), 1e-11)
+      << "m3, of faces of 2 m2 whose corners are rounded";
+}
+
 TEST(Decomposition, NefFallbackGivesAPartition) {
   const TriangleMesh mesh = repair_mesh(prism(l_shape(), 1.0), 1e-6);
   const std::vector<ConvexPolyhedron> parts = decompose_by_nef(mesh);

@@ -70,6 +70,26 @@ TEST(SplitComponents, SeparatesStonesThatShareCorners) {
     for (const double rounding : {0.0, 1e-5}) expect_two_cubes(offset, rounding);
 }
 
+// A unit cube whose front has three more corners on its upper side, divided as a fan: three triangles have no
+// height, also where the side is off a straight line by rounding.
+TEST(RepairMesh, ReadsTrianglesWithoutHeight) {
+  for (const double rounding : {0.0, 1e-16, -1e-16, 1e-7, -1e-7}) {
+    RawBlock block;
+    block.mesh.vertices = {{0, 0, 0},           {1, 0, 0},           {1, 1, 0},          {0, 1, 0},
+                           {0, 0, 1},           {1, 0, 1},           {1, 1, 1},          {0, 1, 1},
+                           {0.25, rounding, 1}, {0.5, -rounding, 1}, {0.75, rounding, 1}};
+    for (const auto& face : {std::vector{0, 3, 2, 1},
+                             {1, 2, 6, 5},
+                             {2, 3, 7, 6},
+                             {3, 0, 4, 7},
+                             {0, 1, 5, 10, 9, 8, 4},
+                             {4, 8, 9, 10, 5, 6, 7}})
+      for (size_t i = 1; i + 1 < face.size(); ++i)
+        block.mesh.faces.push_back({face[0], face[i], face[i + 1]});
+    EXPECT_NEAR(mesh_volume(repair_mesh(block, 1e-6)), 1.0, std::abs(rounding) + 1e-12) << rounding;
+  }
+}
+
 TEST_F(Import, ReadsFilesWithAByteOrderMark) {
   const std::string mark = "\xEF\xBB\xBF";
   EXPECT_EQ(read_obj(write("marked.obj", mark + obj_box("ground", 0, 0, 1))).at(0).name, "ground");
