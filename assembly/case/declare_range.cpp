@@ -69,7 +69,7 @@ void declare_restraint_force(Section& s, RestraintForce& restraint) {
 
 void declare_all_joints(Section& s, AllJoints& joints) {
   s.integer("sectors", joints.sectors, {.min = 1, .max = 100000},
-            "equal sectors about the z axis, of whose first one the joints are evaluated");
+            "equal sectors about the axis of the vault, of whose first one the joints are evaluated");
 }
 
 void declare_quantity(Section& s, ForceQuantity& quantity) {

@@ -41,6 +41,14 @@ RangeObjective normal_force(int block_a, int block_b, const ForceScene& scene) {
           std::minmax({block_a, block_b})};
 }
 
+/// rad, of a joint about the axis from which its upper block moves outwards; of a wall its own.
+double azimuth_of(const BlockPair& pair, int block_a, int block_b, const Assembly& assembly) {
+  const int ring = std::max(assembly.blocks[block_a].ring, assembly.blocks[block_b].ring);
+  const Sheet* vault = assembly.vault_of(ring);
+  const Vec3 own = (vault ? *vault : assembly.axis_of(ring)).own(pair.centroid);
+  return std::atan2(own.y(), own.x());
+}
+
 }  // namespace
 
 RangeObjective objective_of(const JointForce& joint, const ForceScene& scene) {
@@ -121,13 +129,16 @@ std::vector<RangeObjective> objectives_of(const AllJoints& all, const ForceScene
   const bool repeats = scene.scene.analysis.cyclic_sectors > 1;
   std::vector<RangeObjective> objectives;
   for (const auto& [key, pair] : scene.joints.pairs()) {
-    const double azimuth = std::atan2(pair.centroid.y(), pair.centroid.x()) + kSeam;
+    const double azimuth = azimuth_of(pair, key.first, key.second, scene.assembly) + kSeam;
     if (azimuth + (azimuth < 0.0 ? turn : 0.0) >= sector) continue;
     RangeObjective& objective = objectives.emplace_back(normal_force(key.first, key.second, scene));
     if (!repeats) continue;
     objective.mean_of_images = true;
     objective.quantity = fmt::format("mean {} and its images", objective.quantity);
   }
+  if (objectives.empty())
+    throw InputError(fmt::format("{}: no joint lies in the first of {} sectors about the axis; give fewer",
+                                 kQuantitiesKey, all.sectors));
   return objectives;
 }
 

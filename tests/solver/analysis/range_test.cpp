@@ -110,6 +110,20 @@ TEST(Range, LeastForcesAreProvenByTheStatesOfOtherEnds) {
   }
 }
 
+// Far from the z axis, of which no sector of 90 degrees holds one leg alone, sectors are those about the axis
+// of the sheet. One too narrow to hold a joint is refused.
+TEST(Range, SectorsOfJointsLieAboutTheAxisOfTheSheet) {
+  Assembly slab = table(1.5, 0.2);
+  const Vec3 aside(-20.0, -13.0, 0.0);
+  for (Vec3& vertex : slab.vertices) vertex += aside;
+  compute_mass_properties(&slab);
+  slab.sheets = {{.name = "table", .num_rings = 1, .origin = aside}};
+  const Summary summary = ranges_of(range_case(0.5, {AllJoints{.sectors = 4}}), slab);
+  ASSERT_EQ(summary.ranges.size(), 1u);
+  EXPECT_EQ(summary.ranges[0].quantity, "normal force of joint 2-4");
+  EXPECT_THROW(ranges_of(range_case(0.5, {AllJoints{.sectors = 100}}), slab), InputError);
+}
+
 // The corners of a dry face carry what all its points do. Strength belongs to areas, and needs all points.
 TEST(Range, DryFacesHaveTheirCornersOnly) {
   const Assembly slab = table(1.5, 0.2);
