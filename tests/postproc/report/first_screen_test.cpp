@@ -206,6 +206,14 @@ TEST(FirstScreen, WithoutAMarginItNamesTheCommandThatComputesOne) {
 }
 
 // The motion of supports is a cause of displacement only where they move.
+TEST(FirstScreen, AnAxisIsAdvisedForRingsAlone) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  EXPECT_EQ(terminal_lines(e, "")[3], "  thrust    none: a wall has no outside");
+  e.assembly.sheets.clear();
+  EXPECT_EQ(terminal_lines(e, "")[3],
+            "  thrust    none: no courses, no axis: geometry.import.axis is for rings; import arches singly");
+}
+
 TEST(FirstScreen, TheLargestDisplacementNamesSupportsOnlyIfTheyMove) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.summary.max_displacement_m = 0.02;
