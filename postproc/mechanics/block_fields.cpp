@@ -66,11 +66,11 @@ std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& fra
     fields[b].resultant = above(from_below[b].force.norm(), floor.force);
     fields[b].couple_length = couple_length(from_below[b], floor);
     if (!axes[b].exists || assembly.blocks[b].fixed) continue;
-    const auto along = [&](const Vec3& axis) {
-      return above(-axis.dot(stress[b] * axis) * axes[b].thickness, per_metre);
-    };
-    fields[b].meridional_force = along(axes[b].m);
-    fields[b].hoop_force = along(axes[b].t);
+    const auto along = [&](const Vec3& axis) { return -axis.dot(stress[b] * axis) * axes[b].thickness; };
+    double meridional = along(axes[b].m), hoop = along(axes[b].t);
+    if (axes[b].pole) meridional = hoop = 0.5 * (meridional + hoop);
+    fields[b].meridional_force = above(meridional, per_metre);
+    fields[b].hoop_force = above(hoop, per_metre);
   }
   for (const JointWrench& joint : joints.wrenches) {
     for (const int b : {joint.block_a, joint.block_b}) {

@@ -32,9 +32,9 @@ struct BlockFields {
 ///     sigma = 1/V  sum (x - c) f^T        (Love, Weber; holds for a block in equilibrium)
 ///
 /// turned back to the block as built, whose axes are given, as -m.sigma.m and -t.sigma.t times the thickness
-/// of the shell. They thus average over the block the friction on its beds and the pressure on its heads. They
-/// are zero for fixed blocks, for blocks without shell axes, and up to the floor of forces over the size of a
-/// block.
+/// of the shell. They thus average over the block the friction on its beds and the pressure on its heads. At a
+/// pole, where all meridians meet, both are the mean over all directions. They are zero for fixed blocks, for
+/// blocks without shell axes, and up to the floor of forces over the size of a block.
 std::vector<BlockFields> block_fields(const Assembly& assembly, const Frame& frame,
                                       const JointWrenches& joints, const std::vector<Wrench>& from_below,
                                       const std::vector<PointForce>& loads,

@@ -22,8 +22,7 @@ PlaneCut plane_cut(const CutPlane& plane, const Assembly& assembly, const JointW
   CUPOLA_ASSERT(plane.normal.norm() > 0.0);
   cut.normal = plane.normal.normalized();
 
-  constexpr double kRounding = 1e-9;  // of the model: far above that of centroids, far below any block
-  const double on_plane = kRounding * model_size(assembly);
+  const double on_plane = on_plane_tolerance(assembly);
   const auto is_free = [&](int block) { return takes_part(assembly, block, left_out); };
   std::vector<bool> beyond(assembly.blocks.size());
   for (size_t b = 0; b < beyond.size(); ++b) {

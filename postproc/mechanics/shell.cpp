@@ -69,23 +69,6 @@ double standard_width(const Assembly& assembly, const Shell& shell, int first, i
   return middle_value(standard.empty() ? std::move(all) : std::move(standard));
 }
 
-/// Per free block of a shell with wythes, the mean vector from the inner to the outer edges of its bed
-/// facets, m. Zero in other shells and without a bed of its own.
-std::vector<Vec3> through_blocks(const Assembly& assembly, const Shell& shell) {
-  std::vector<Vec3> through(assembly.blocks.size(), Vec3::Zero());
-  std::vector<int> edges(through.size(), 0);
-  if (assembly.members.empty()) return through;
-  for (const auto& bed : shell.beds)
-    for (const BedFacet& f : bed) {
-      if (assembly.blocks[f.block].fixed) continue;
-      through[f.block] += f.extrados_a + f.extrados_b - f.intrados_a - f.intrados_b;
-      edges[f.block] += 2;
-    }
-  for (size_t b = 0; b < through.size(); ++b)
-    if (edges[b] > 0) through[b] /= edges[b];
-  return through;
-}
-
 /// The blocks on a bed; `axis`: of its stack.
 std::vector<BlockBed> blocks_on(const std::vector<BedFacet>& bed, const Sheet& axis) {
   std::map<int, BlockBed> by_number;
@@ -125,6 +108,10 @@ double model_size(const Assembly& assembly) {
   for (const Block& block : assembly.blocks)
     if (!block.fixed) box.extend(block.centroid);
   return std::max(box.diagonal().norm(), std::cbrt(assembly.blocks.front().volume));
+}
+
+double on_plane_tolerance(const Assembly& assembly) {
+  return 1e-9 * model_size(assembly);
 }
 
 double block_size(const Assembly& assembly) {
@@ -226,56 +213,6 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
     shell.block_width_rad.resize(static_cast<size_t>(end), standard_width(assembly, shell, first, end));
   }
   return shell;
-}
-
-std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell) {
-  std::vector<ShellAxes> axes(assembly.blocks.size());
-  std::vector<double> skin_area(axes.size(), 0.0), hidden_area(axes.size(), 0.0);  // m2, hidden: by wythes
-  std::vector<char> has_inner(axes.size(), 0), has_outer(axes.size(), 0);
-  if (shell.num_rings() == 0) return axes;
-  for (const Part& part : assembly.parts) {
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      const FaceKind kind = assembly.face_kinds[f];
-      if (kind != FaceKind::intrados && kind != FaceKind::extrados && kind != FaceKind::wythe) continue;
-      const std::vector<Vec3> polygon = face_points(assembly, f);
-      const double area = polygon_area(polygon);
-      if (kind == FaceKind::wythe) {
-        hidden_area[part.block] += area;
-        continue;
-      }
-      axes[part.block].n += (kind == FaceKind::extrados ? area : -area) * polygon_plane(polygon).normal;
-      skin_area[part.block] += area;
-      (kind == FaceKind::extrados ? has_outer : has_inner)[part.block] = 1;
-    }
-  }
-  const std::vector<Vec3> through = through_blocks(assembly, shell);
-  for (size_t b = 0; b < axes.size(); ++b) {
-    const Block& block = assembly.blocks[b];
-    ShellAxes& a = axes[b];
-    const bool has_skin = skin_area[b] > 0.0;
-    if (!has_skin) a.n = through[b];  // between two wythes
-    if (block.ring < 0 || a.n.norm() == 0.0) continue;
-    a.n.normalize();
-    const Vec3& progress = shell.direction(block.ring);
-    a.m = progress - progress.dot(a.n) * a.n;
-    if (a.m.norm() == 0.0) continue;
-    a.m.normalize();
-    a.t = a.m.cross(a.n);
-    if (has_inner[b] && has_outer[b])  // also beside a pilaster, which hides part of a skin
-      a.thickness = 2.0 * block.volume / (skin_area[b] + hidden_area[b]);
-    else
-      a.thickness = has_skin ? block.volume / skin_area[b] : through[b].norm();
-    CUPOLA_ASSERT(std::isfinite(a.thickness) && std::abs(a.t.norm() - 1.0) < 1e-9);
-    a.exists = true;
-  }
-  return axes;
-}
-
-std::vector<Vec3> shifts_by_wythe(const Assembly& assembly, const Shell& shell) {
-  std::vector<Vec3> shifts = through_blocks(assembly, shell);
-  for (size_t b = 0; b < shifts.size(); ++b)
-    shifts[b] = shell.wythes_inside(static_cast<int>(b)) * shifts[b].stableNormalized();
-  return shifts;
 }
 
 }  // namespace cupola

@@ -68,10 +68,12 @@ Shell shell_of(const Assembly& assembly, const Vec3& up);
 
 /// Local axes of a block in the shell, unit and orthogonal, and its thickness.
 struct ShellAxes {
-  bool exists = false;     ///< false for a block without intrados and extrados, and without wythes
-  Vec3 n = Vec3::Zero();   ///< from intrados to extrados
-  Vec3 m = Vec3::Zero();   ///< along the meridian, upwards
+  bool exists = false;    ///< false for a block without intrados and extrados, and without wythes
+  Vec3 n = Vec3::Zero();  ///< from intrados to extrados
+  /// Along the meridian, upwards; in a level stone of a crown across its barrel.
+  Vec3 m = Vec3::Zero();
   Vec3 t = Vec3::Zero();   ///< along the ring, m x n
+  bool pole = false;       ///< level and of no barrel, as a key stone: m may be any direction
   double thickness = 0.0;  ///< m, volume over the mean area of the two skins
 };
 std::vector<ShellAxes> shell_axes(const Assembly& assembly, const Shell& shell);
@@ -85,6 +87,9 @@ inline constexpr double kDegrees = 180.0 / std::numbers::pi;  ///< degrees per r
 /// Size of the model, m: diagonal of the box around the centroids of the free blocks, but at least the cube
 /// root of the volume of the first block.
 double model_size(const Assembly& assembly);
+
+/// Distance, m, up to which a point lies on a plane: far above the rounding of centroids, far below any block.
+double on_plane_tolerance(const Assembly& assembly);
 
 /// Size of a block, m: cube root of the mean volume of the free blocks; 0 without any.
 double block_size(const Assembly& assembly);
