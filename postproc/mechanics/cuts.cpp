@@ -45,7 +45,18 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
   const auto [first, end] = assembly.stack_of(ring);
   const Vec3 outwards = axis.towards(angle), along(-outwards.y(), outwards.x(), 0.0);
   const Vec3 foot(axis.origin.x(), axis.origin.y(), 0.0);
-  const auto positive = [&](int block) { return along.dot(assembly.blocks[block].centroid - foot) > 0.0; };
+  const double on_plane = on_plane_tolerance(assembly);
+  const double in_turn = std::remainder(azimuth_deg, 360.0);
+  const bool is_opposite = in_turn < 0.0 || in_turn == 180.0;
+  const auto positive = [&](int block) {
+    const double distance = along.dot(assembly.blocks[block].centroid - foot);
+    return std::abs(distance) <= on_plane ? is_opposite : distance > 0.0;
+  };
+  // Share of a force at a point that crosses this half-plane, not the opposite one: half at the axis.
+  const auto on_this_side = [&](const Vec3& at) {
+    const double distance = outwards.dot(at - foot);
+    return std::abs(distance) <= on_plane ? 0.5 : distance > 0.0 ? 1.0 : 0.0;
+  };
   const auto is_of_stack = [&, first = first, end = end](int block) {
     return assembly.blocks[block].ring >= first && assembly.blocks[block].ring < end;
   };
@@ -55,8 +66,9 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
     const int a = joint.block_a, b = joint.block_b;
     if (assembly.blocks[a].fixed || assembly.blocks[b].fixed || positive(a) == positive(b)) continue;
     if (!is_of_stack(a) || !is_of_stack(b)) continue;
-    if (outwards.dot(joint.patch.centroid - foot) <= 0.0) continue;  // beyond the axis
-    const double force = along.dot(wrench_on(joint, positive(b) ? b : a).force);
+    const double share = on_this_side(joint.patch.centroid);
+    if (share == 0.0) continue;
+    const double force = share * along.dot(wrench_on(joint, positive(b) ? b : a).force);
     HoopRow& row = rows[joint.ring];
     row.ring = joint.ring;
     row.height += joint.patch.centroid.z();
@@ -70,13 +82,14 @@ std::vector<HoopRow> hoop_forces(const Assembly& assembly, const JointWrenches& 
     const double s = along.dot(from), t = along.dot(to);
     const double share = s * t < 0.0 ? s / (s - t) : 0.5;  // else the bar ends in a block that the plane cuts
     const Vec3 at = (1.0 - share) * from + share * to;
-    if (outwards.dot(at) <= 0.0) continue;  // beyond the axis
+    const double share_here = on_this_side(foot + at);
+    if (share_here == 0.0) continue;
     const Vec3 on_b = tie_force_on_b(ties, i);
     const int course = assembly.blocks[a].ring;
     // In a motion a course that is cracked through has no joint here.
     const auto [row, is_alone] = rows.try_emplace(course, HoopRow{.ring = course, .height = at.z()});
     counts[course] += is_alone ? 1 : 0;
-    row->second.tie_force += along.dot(positive(b) ? on_b : Vec3(-on_b));
+    row->second.tie_force += share_here * along.dot(positive(b) ? on_b : Vec3(-on_b));
   }
   std::vector<HoopRow> out;
   for (auto& [number, row] : rows) {

@@ -19,6 +19,9 @@ std::vector<CutPolygon> cut_by_plane(const Assembly& assembly, const Plane& plan
 
 /// Force of one ring across a meridian half-plane: the component along the ring that the blocks on the side
 /// of greater azimuth receive from the others, compression positive.
+///
+/// A block on the plane, as a key stone, lies before it at azimuths from 0 up to 180 degrees and beyond it at
+/// the others; a joint at the axis counts half. Opposite half-planes thus add up to the plane.
 struct HoopRow {
   int ring = 0;
   double height = 0.0;      ///< m, mean height of the joints crossed; without any, of a tie
