@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/ring_sums.hpp"
 
 namespace cupola {
 namespace {
@@ -25,6 +26,21 @@ bool stands_on_other_sheet(const Assembly& assembly, const JointWrench& joint) {
   const Block &lower = assembly.blocks[joint.lower], &upper = assembly.blocks[joint.upper];
   return !upper.fixed && upper.ring < lower.ring &&
          assembly.sheet_of(upper.ring) != assembly.sheet_of(lower.ring);
+}
+
+/// Sets which block of a bed or base joint lies further along the shell: the one to which its normal points.
+/// Of an upright joint, whose normal points neither way, a support is the lower block, else the lower course;
+/// stones of one course lean on each other, and none is carried.
+void find_upper(const Assembly& assembly, const Shell& shell, JointWrench* joint) {
+  constexpr double kUpright = 1e-9;  // cosine, rounding of a model 1 km from the origin
+  const int a = joint->block_a, b = joint->block_b;
+  double towards_b = joint->patch.plane.normal.dot(shell.direction(reference_ring(assembly, *joint)));
+  if (std::abs(towards_b) <= kUpright)
+    towards_b = ring_above_support(assembly.blocks[b]) - ring_above_support(assembly.blocks[a]);
+  if (towards_b == 0.0) return;
+  joint->upper = towards_b > 0.0 ? b : a;
+  joint->lower = towards_b > 0.0 ? a : b;
+  joint->carried = stands_on_other_sheet(assembly, *joint) ? -1 : joint->upper;
 }
 
 /// Tangential part of the force of a joint over the largest possible one. That of a point in a dry joint
@@ -171,12 +187,7 @@ JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& conta
   for (JointWrench& joint : out.wrenches) {
     joint.open_share = open_share(contacts, out.contacts, out.floor, joint);
     measure(contacts, out.contacts, out.floor, &joint);
-    if (joint.kind != JointKind::bed && joint.kind != JointKind::base) continue;
-    joint.upper = joint.block_b;
-    joint.lower = joint.block_a;
-    if (joint.patch.plane.normal.dot(shell.direction(reference_ring(assembly, joint))) < 0.0)
-      std::swap(joint.upper, joint.lower);
-    joint.carried = stands_on_other_sheet(assembly, joint) ? -1 : joint.upper;
+    if (joint.kind == JointKind::bed || joint.kind == JointKind::base) find_upper(assembly, shell, &joint);
   }
   index_by_block(assembly.blocks.size(), &out);
   return out;

@@ -16,8 +16,9 @@ namespace cupola {
 /// pressure is the centroid of the patch, and what follows from the direction or place of its force is NaN.
 /// Where only its normal forces cancel, so is what follows from their place.
 struct JointWrench : Joint {
-  int upper = -1, lower = -1;  ///< blocks of a bed or base joint; -1 for other kinds
-  /// The upper block, whose course the joint carries. -1 for other kinds, and where the last course of an arch
+  /// Blocks of a bed or base joint; -1 for other kinds, and of an upright joint within a course.
+  int upper = -1, lower = -1;
+  /// The upper block, whose course the joint carries. -1 without one, and where the last course of an arch
   /// stands on another sheet: the joint is over that course, and carries none.
   int carried = -1;
   PlanarHull patch;   ///< hull of the contact points in their mean plane
@@ -57,7 +58,7 @@ struct JointWrenches {
 
 /// Sums the contacts of every joint. The upper block of a bed or base joint is the one further along the
 /// shell in the direction from ring to ring; the right support of an arch therefore lies above its last
-/// joint. `unbalanced`: N, see floor_of().
+/// joint. A support behind an upright joint carries the stone. `unbalanced`: N, see floor_of().
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
                              double unbalanced = 0.0);
 
