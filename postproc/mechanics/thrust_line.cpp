@@ -9,6 +9,7 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/bed_blocks.hpp"
+#include "postproc/mechanics/strip.hpp"
 
 namespace cupola {
 namespace {
@@ -21,38 +22,6 @@ constexpr double kLeastNormalShare = 0.1;
 /// Share of the thickness by which a point on a face may lie beyond it: a hinge turns on the edges of two
 /// blocks, which its joint lets approach.
 constexpr double kOnFace = 1e-4;
-
-/// Share of a block or facet that is the rounding of its corners.
-constexpr double kRounding = 1e-9;
-
-/// What one thrust line follows: a meridian, or none in an arch, and a wythe, or none for the whole
-/// thickness.
-struct Route {
-  Sheet axis;
-  double width = 0.0;              // rad, of the strip
-  std::optional<double> meridian;  // rad
-  std::optional<int> wythe;
-};
-
-/// The bed and base joints of a block on a bed: on one that closes a stack those over it, else those under it.
-std::vector<const JointWrench*> joints_on(const ThrustInput& in, int block, int bed) {
-  const bool over = in.shell->closes(bed);
-  std::vector<const JointWrench*> joints;
-  for (const int i : in.joints->of_block[block]) {
-    const JointWrench& joint = in.joints->wrenches[i];
-    if ((over ? joint.lower : joint.carried) == block) joints.push_back(&joint);
-  }
-  return joints;
-}
-
-/// Share of a block's width that lies in the strip.
-double overlap(const BlockBed& block, double center, double width) {
-  const double middle = 0.5 * (block.from + block.to);
-  const double offset = wrapped(center - middle);
-  const double half = 0.5 * (block.to - block.from);
-  const double common = std::min(half, offset + width / 2) - std::max(-half, offset - width / 2);
-  return common > kRounding * 2.0 * half ? common / (2.0 * half) : 0.0;
-}
 
 /// Adds what balances the loads on the piece of a block above a bed inside the block.
 void balance_loads(const ThrustInput& in, int block, int bed, Wrench* w) {
@@ -128,7 +97,7 @@ std::optional<FacetEdges> edges_on(const BedFacet& f, const Route& route, const 
   const Vec3 foot(route.axis.origin.x(), route.axis.origin.y(), 0.0);
   const double a = across.dot(f.intrados_a - foot), b = across.dot(f.intrados_b - foot);
   // Of two facets whose joint is on the meridian, both may end just beside it.
-  const double rounding = kRounding * std::abs(a - b);
+  const double rounding = kCornerRounding * std::abs(a - b);
   if (std::min(a, b) > rounding || std::max(a, b) < -rounding || a == b) return std::nullopt;
   if (outwards.dot(f.intrados_a - foot) <= 0.0) return std::nullopt;
   const auto meet = [&](const Vec3& p, const Vec3& q) {
@@ -174,21 +143,20 @@ bool find_skins(const ThrustInput& in, int bed, const Layers& layers, const Rout
 /// several.
 bool is_undivided(const ThrustInput& in, int block, int bed) {
   if (in.shell->wythes[block].count() == 1) return false;
-  if (!in.shell->closes(bed) && in.assembly->blocks[block].ring != bed) return true;
+  if (!stands_on(in, block, bed)) return true;
   return std::ranges::any_of(joints_on(in, block, bed), [&](const JointWrench* joint) {
     return !joint->negligible && wythes_of(*in.assembly, *in.shell, *joint).count() > 1;
   });
 }
 
-/// Wrench across a bed within the width of one block, of the joints in a wythe. The block must not be
-/// undivided.
-Wrench wrench_in_wythe(const ThrustInput& in, const Route& route, int block, int bed) {
-  const int wythe = *route.wythe;
-  if (in.shell->wythes[block] == WytheRange{wythe, wythe + 1}) return wrench_at_bed(in, block, bed);
+/// Wrench across a bed on a strand. In a wythe, the block must not be undivided.
+Wrench wrench_of(const ThrustInput& in, const Route& route, int bed, const Strand& strand) {
+  const int block = strand.block.block;
+  const bool whole = !route.wythe || in.shell->wythes[block] == WytheRange{*route.wythe, *route.wythe + 1};
+  if (whole && !strand.of_joint) return wrench_at_bed(in, block, bed);
   Wrench w;
   w.point = in.assembly->blocks[block].centroid;
-  for (const JointWrench* joint : joints_on(in, block, bed))
-    if (wythes_of(*in.assembly, *in.shell, *joint).contains(wythe)) w.add(wrench_on(*joint, joint->upper));
+  for (const JointWrench* joint : strand.joints) w.add(wrench_on(*joint, joint->upper));
   return w;
 }
 
@@ -207,11 +175,10 @@ Push push_of(const ThrustInput& in, const Wrench& placed, int bed, const BlockBe
 }
 
 /// From the contact points of its joints on the bed.
-Push push_at_points(const ThrustInput& in, const Route& route, int bed, const BlockBed& block) {
+Push push_at_points(const ThrustInput& in, int bed, const Strand& strand) {
   Bearing bearing;
-  for (const JointWrench* joint : joints_on(in, block.block, bed))
-    if (!route.wythe || wythes_of(*in.assembly, *in.shell, *joint).contains(*route.wythe))
-      add_bearing(*joint, *in.joints, *in.contacts, in.shell->beds[bed], block, in.poses, &bearing);
+  for (const JointWrench* joint : strand.joints)
+    add_bearing(*joint, *in.joints, *in.contacts, in.shell->beds[bed], strand.block, in.poses, &bearing);
   return {bearing.normal_force, bearing.share()};
 }
 
@@ -226,24 +193,25 @@ bool sum_strip(const ThrustInput& in, int bed, const Layers& layers, const Route
   Wrench sum;
   sum.point = 0.5 * (point->intrados + point->extrados);
   double weighted_position = 0.0, pressing = 0.0;
-  for (const BlockBed& block : in.shell->blocks[bed]) {
-    const double share = meridian ? overlap(block, *meridian, route.width) : 1.0;
-    if (share <= 0.0) continue;
+  int last = -1;
+  for (const Strand& strand : strands_on(in, bed, route)) {
+    const BlockBed& block = strand.block;
     const int id = block.block;
     if (wythe && is_undivided(in, id, bed)) return false;
     if (wythe && !in.shell->wythes[id].contains(*wythe)) continue;
-    const Wrench w = wythe ? wrench_in_wythe(in, route, id, bed) : wrench_at_bed(in, id, bed);
+    const Wrench w = wrench_of(in, route, bed, strand);
     if (w.force.norm() == 0.0) continue;
     const double turn = meridian ? *meridian - 0.5 * (block.from + block.to) : 0.0;
-    sum.add(share * turned(in, id, w, turn, route.axis));
-    const bool stands = in.shell->closes(bed) || in.assembly->blocks[id].ring == bed;
+    sum.add(strand.share * turned(in, id, w, turn, route.axis));
     // Forces that hold each other along the bed, as across a wide arch, shift the line of action of the
     // block's wrench; that of a bent stone runs inside its bend.
-    const bool at_points = stands && (in.shell->num_wythes > 1 || !meridian || block.facets.size() > 1);
-    const auto [normal, at] = at_points ? push_at_points(in, route, bed, block) : push_of(in, w, bed, block);
-    weighted_position += share * normal * layers.position(at);
-    pressing += share * normal;
-    ++point->blocks;
+    const bool at_points =
+        stands_on(in, id, bed) && (in.shell->num_wythes > 1 || !meridian || block.facets.size() > 1);
+    const auto [normal, at] = at_points ? push_at_points(in, bed, strand) : push_of(in, w, bed, block);
+    weighted_position += strand.share * normal * layers.position(at);
+    pressing += strand.share * normal;
+    if (id != last) ++point->blocks;
+    last = id;
   }
   if (point->blocks == 0) return false;
   if (pressing > kLeastNormalShare * sum.force.norm()) point->position = weighted_position / pressing;
@@ -261,13 +229,12 @@ void find_compressed_zone(const ThrustInput& in, int bed, const Layers& layers, 
   constexpr double kLeastShare = 1e-6;
   const ContactTable& c = *in.contacts;
   double force = 0.0, area = 0.0;
-  for (const BlockBed& block : in.shell->blocks[bed]) {
-    if (route.meridian && overlap(block, *route.meridian, route.width) <= 0.0) continue;
-    if (!in.shell->closes(bed) && in.assembly->blocks[block.block].ring != bed) continue;
-    for (const JointWrench* of_block : joints_on(in, block.block, bed)) {
+  for (const Strand& strand : strands_on(in, bed, route)) {
+    const BlockBed& block = strand.block;
+    if (!stands_on(in, block.block, bed)) continue;
+    for (const JointWrench* of_block : strand.joints) {
       const JointWrench& joint = *of_block;
       if (joint.negligible) continue;
-      if (route.wythe && !wythes_of(*in.assembly, *in.shell, joint).contains(*route.wythe)) continue;
       const double least = kLeastShare * std::max(0.0, joint.normal_force) / joint.num_contacts;
       for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
         const int row = in.joints->contacts[i];

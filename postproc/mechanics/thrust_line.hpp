@@ -47,6 +47,8 @@ struct ThrustPoint {
 /// - Each block in the strip counts with the share of its width that lies inside, and its wrench is turned
 ///   about the axis into the meridian plane. Where a herringbone crosses, several narrow blocks share the
 ///   strip.
+/// - Of a stone round the axis, as a key stone, whose horizontal forces cancel, each joint on the bed counts
+///   in the same way.
 /// - If the bed runs through a block, the wrench is the one that balances the piece of the block above the
 ///   bed: its weight, its contact forces, and the loads and ties that act on it. A load at the bed itself is
 ///   on the piece; a moment acts at the centroid of the block.
