@@ -8,6 +8,7 @@
 #include "assembly/case/plausibility.hpp"
 #include "assembly/case/plausible_range.hpp"
 #include "assembly/model/applied_loads.hpp"
+#include "assembly/model/laying_course.hpp"
 
 namespace cupola {
 namespace {
@@ -129,6 +130,35 @@ std::vector<std::string> spread_beside(const Loads& loads, const Assembly& assem
   return out;
 }
 
+/// Loads and moves that no stage of a construction feels.
+std::vector<std::string> felt_by_no_stage(const Case& scene, const Assembly& assembly) {
+  const StagedConstruction& staged = scene.analysis.staged;
+  if (scene.analysis.type != AnalysisType::staged) return {};
+  int top = 0;
+  for (const Block& block : assembly.blocks) top = std::max(top, laying_course(assembly, block));
+  const bool completed = staged.last_ring < 0 || laying_course(assembly, staged.last_ring) >= top;
+  const bool feels_supports = std::ranges::any_of(assembly.blocks, [&](const Block& block) {
+    return !block.fixed && laying_course(assembly, block) == 0 &&
+           !is_held(assembly, block, top, staged.hold_below);
+  });
+  std::vector<std::string> out;
+  if (!completed && !applied_loads(scene.loads, assembly).empty())
+    out.push_back(
+        fmt::format("loads: all but the weight act on the complete model only, which "
+                    "analysis.staged.last_ring = {} never reaches",
+                    staged.last_ring));
+  if (!scene.supports.moves.empty() && !(completed && feels_supports))
+    out.push_back(
+        completed
+            ? fmt::format("supports.moves: no joint feels them, because analysis.staged.hold_below = {} "
+                          "holds the blocks on the supports",
+                          staged.hold_below)
+            : fmt::format("supports.moves: act on the complete model only, which "
+                          "analysis.staged.last_ring = {} never reaches",
+                          staged.last_ring));
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly) {
@@ -161,6 +191,7 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
   for (std::string& text : idle_fill(scene.loads, assembly, weight)) out.push_back(std::move(text));
   for (std::string& text : spread_beside(scene.loads, assembly)) out.push_back(std::move(text));
   for (std::string& text : moved_supports(scene)) out.push_back(std::move(text));
+  for (std::string& text : felt_by_no_stage(scene, assembly)) out.push_back(std::move(text));
   return out;
 }
 

@@ -261,6 +261,33 @@ TEST(UnusedTimes, AreNamedWithTheirFactor) {
   EXPECT_TRUE(warnings({"analysis={type: static}", "joints.friction_time={type: ramp, from: 1}"}).empty());
 }
 
+// Loads and moves act on the complete model: not where the last course is not laid, and moves not where the
+// blocks on the supports are held.
+TEST(ImplausibleForBlocks, WhatNoStageFeels) {
+  Assembly blocks = test::two_block_assembly();
+  blocks.blocks.push_back(blocks.blocks.back());
+  blocks.blocks[1].ring = 0;
+  blocks.blocks[2].ring = 1;
+  Case scene;
+  scene.analysis.type = AnalysisType::staged;
+  scene.loads.forces = {{.block = 1, .point = {}, .force = Vec3(0, 0, -1e3), .time = {}}};
+  scene.supports.moves.emplace_back().displacement = {1e-3, 0, 0};
+  const auto starts = [&] {
+    std::string found;
+    for (const std::string& text : implausible_for_blocks(scene, blocks))
+      found += text.substr(0, text.find(':')) + ",";
+    return found;
+  };
+  EXPECT_EQ(starts(), "");
+  scene.analysis.staged.last_ring = 1;
+  EXPECT_EQ(starts(), "");
+  scene.analysis.staged.last_ring = 0;
+  EXPECT_EQ(starts(), "loads,supports.moves,");
+  scene.analysis.staged.last_ring = -1;
+  scene.analysis.staged.hold_below = 0;
+  EXPECT_EQ(starts(), "supports.moves,");
+}
+
 // A fixed cube from z = 0 to 1 m and a block of 1 m height on it.
 TEST(ImplausibleForBlocks, ValuesThatMustFitTheBlocks) {
   const Assembly blocks = test::two_block_assembly();
