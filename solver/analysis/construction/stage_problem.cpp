@@ -56,9 +56,8 @@ BuildingSite::BuildingSite(const Case& the_case, const Assembly& of_it)
       contacts(ContactDetector(of_it, detection_options(the_case)).update(initial_poses(of_it))) {
   for (Patch& patch : contacts.patches) {
     rings.push_back(patch.ring);
-    const int upper = std::max(course[patch.block_a], course[patch.block_b]);
-    // A joint with a support is as old as its free block.
-    patch.ring = patch.kind == JointKind::base ? upper : std::max(upper, laying_course(assembly, patch.ring));
+    // A joint is as old as the younger of its blocks, though two uprights may touch only in courses above.
+    patch.ring = std::max(course[patch.block_a], course[patch.block_b]);
   }
 }
 

@@ -153,6 +153,18 @@ TEST(Staged, LoadsAndTiesActOnlyOnceTheirBlocksAreLaid) {
   }
 }
 
+// Two uprights, laid with the courses 0 and 1, touch in course 2.
+TEST(Staged, AJointOfUprightsIsAsOldAsTheYoungerOne) {
+  Assembly boxes = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
+                                        {.center = {-0.5, 0, 0.5}, .ring = 0},
+                                        {.center = {0.5, 0, 0.5}, .ring = 1}});
+  for (Part& part : boxes.parts)
+    if (part.block != 0) part.ring = 2;
+  const Case scene = staged_case(0.6, 0.5);
+  const BuildingSite site(scene, boxes);
+  for (const Patch& patch : site.contacts.patches) EXPECT_EQ(patch.ring, patch.block_b == 1 ? 0 : 1);
+}
+
 TEST(Staged, RefusesAFirstRingAboveTheLast) {
   Case scene = staged_case(0.6, 0.5);
   scene.analysis.staged.first_ring = 7;
