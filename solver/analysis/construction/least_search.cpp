@@ -88,8 +88,8 @@ LeastSearch::Result LeastSearch::find(const TryValue& solve) {
     result.bracket.message =
         more_bears_ == MoreBears::more
             ? fmt::format("{} at {:g}, the largest value tried", to_string(trial->outcome), trial->value)
-            : fmt::format("it stands at none of {} values from {:g} to {:g}, of which more can bear less",
-                          values.size(), std::ranges::min(values), std::ranges::max(values));
+            : fmt::format("it stands at no value tried from {:g} to {:g}, of which more can bear less",
+                          std::ranges::min(values), std::ranges::max(values));
     return result;
   }
   // 2. Downwards to a value at which it moves
