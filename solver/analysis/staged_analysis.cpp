@@ -26,7 +26,8 @@ class ConstructionRun {
 
  private:
   void resume();
-  bool lay_foundation();
+  LaidBlocks foundation() const;
+  void lay_foundation();
   bool may_go_on(const Construction& building);
   void advance();
   bool advance_at_once();
@@ -66,27 +67,38 @@ ConstructionRun::ConstructionRun(const Case& scene, const Assembly& assembly, co
                     std::ranges::max(assembly.blocks, {}, &Block::ring).ring));
 }
 
-/// The courses below the first stage, as if built at once, with the mortar that they have in that stage.
-/// False if they do not stand.
-bool ConstructionRun::lay_foundation() {
-  const int first = stages_.front().course;
-  std::vector<int> below;
+/// The courses below the first stage.
+LaidBlocks ConstructionRun::foundation() const {
+  LaidBlocks below{stages_.front().ring - 1, stages_.front().course - 1, 1.0, {}};
   for (size_t block = 0; block < assembly_.blocks.size(); ++block)
-    if (!assembly_.blocks[block].fixed && building_.site().course[block] < first)
-      below.push_back(static_cast<int>(block));
-  if (below.empty()) return true;
-  building_.lay(below, first);
-  if (!staged_.carry || !building_.any_free()) return true;
-  const StaticSolution solution = building_.solve(Construction::Need::forces);
-  const Frame frame = stage_frame(building_, solution);
-  summarize_static(solution, frame, building_.problem().model, building_.options().tolerance, &summary_);
-  if (solution.outcome == StaticOutcome::equilibrium) {
-    building_.accept(solution);
-    return true;
+    if (!assembly_.blocks[block].fixed && building_.site().course[block] <= below.course)
+      below.blocks.push_back(static_cast<int>(block));
+  return below;
+}
+
+/// Lays the foundation as if built at once, with the mortar that it has in the first stage. If it does not
+/// stand, it is a stage itself.
+void ConstructionRun::lay_foundation() {
+  LaidBlocks below = foundation();
+  if (below.blocks.empty()) return;
+  building_.lay(below.blocks, stages_.front().course);
+  if (!building_.any_free()) return;
+  SolvedStage stage;
+  stage.solution = building_.solve(Construction::Need::forces);
+  if (stage.solution.outcome == StaticOutcome::equilibrium) {
+    if (staged_.carry) building_.accept(stage.solution);
+    return;
   }
-  sinks_.frame(frame);
-  summary_.message = "the courses below analysis.staged.first_ring do not stand: " + summary_.message;
-  return false;
+  stage.solution.message =
+      "the courses below analysis.staged.first_ring, laid at once, do not stand: " + stage.solution.message;
+  stage.least.bracket.message = "it is sought from analysis.staged.first_ring on";
+  stage.iterations = stage.solution.iterations;
+  if (stage.solution.outcome == StaticOutcome::moving)
+    stage.falling = falling_blocks(building_.problem(), stage.solution.step_solution.v);
+  stages_.insert(stages_.begin(), std::move(below));
+  record(building_, stage);
+  progress_.foundation_fell = true;
+  progress_.ended = staged_.carry;
 }
 
 /// One stage, from what the last one left.
@@ -218,6 +230,7 @@ void ConstructionRun::resume() {
   BuiltState state;
   ByteReader archive(sinks_.resume_from);
   archive(progress_, state);
+  if (progress_.foundation_fell) stages_.insert(stages_.begin(), foundation());
   search_.start_from(progress_.last_bracket);
   building_.restore(std::move(state));
 }
@@ -235,8 +248,8 @@ std::optional<Summary> ConstructionRun::run() {
   const bool separate = staged_.unit == StagedConstruction::Unit::ring && !staged_.carry;
   if (!sinks_.resume_from.empty())
     resume();
-  else if (!lay_foundation())
-    return summary_;
+  else
+    lay_foundation();
   while (progress_.next < static_cast<int>(stages_.size()) && !progress_.ended) {
     if (!may_go_on(building_)) return std::nullopt;
     if (!separate)

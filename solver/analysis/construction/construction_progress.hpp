@@ -27,6 +27,7 @@ struct ConstructionProgress {
   std::optional<std::pair<double, double>> last_bracket;  ///< of the search
   std::string first_failure;  ///< stage and message of the first one that does not stand
   bool unconverged = false, ended = false;
+  bool foundation_fell = false;                   ///< the courses below first_ring, a stage of their own
   bool all_proven = true, motion_proven = false;  ///< one motion is enough to refute the construction
   std::string stages_csv = construction_header(), failures_csv;
 
@@ -58,8 +59,8 @@ template <class Archive>
 void visit(Archive& archive, ConstructionProgress& x) {
   archive(x.next, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance,
           x.largest_displacement, x.worst, x.least_stands, x.least_moves, x.least_stage, x.not_held,
-          x.may_need, x.may_need_text, x.last_bracket, x.first_failure, x.unconverged, x.ended, x.all_proven,
-          x.motion_proven, x.stages_csv, x.failures_csv);
+          x.may_need, x.may_need_text, x.last_bracket, x.first_failure, x.unconverged, x.ended,
+          x.foundation_fell, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
 }
 
 }  // namespace cupola
