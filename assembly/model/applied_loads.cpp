@@ -109,8 +109,7 @@ std::vector<PointForce> applied_loads(const Loads& loads, const Assembly& assemb
   for (size_t i = 0; i < loads.forces.size(); ++i)
     add_block_force(loads.forces[i], assembly, fmt::format("loads.forces[{}]", i), time++, &forces);
   for (size_t i = 0; i < loads.faces.size(); ++i)
-    add_face_load(loads.faces[i], assembly, fmt::format("loads.faces[{}]", i), loads.gravity + loads.pull,
-                  time++, &forces);
+    add_face_load(loads.faces[i], assembly, fmt::format("loads.faces[{}]", i), loads, time++, &forces);
   return forces;
 }
 
@@ -123,10 +122,8 @@ double share_beside(const BlockForce& load, const Assembly& assembly) {
 std::vector<TimeFunction> load_times(const Loads& loads) {
   std::vector<TimeFunction> times;
   for (const BlockForce& load : loads.forces) times.push_back(load.time);
-  for (const FaceLoad& load : loads.faces) {
-    const bool is_dead_load = load.fill && std::holds_alternative<ConstantInTime>(load.time);
-    times.push_back(is_dead_load ? loads.dead_load_time : load.time);
-  }
+  for (const FaceLoad& load : loads.faces)
+    times.push_back(is_dead_load(load) ? loads.dead_load_time : load.time);
   return times;
 }
 

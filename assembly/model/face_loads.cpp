@@ -73,7 +73,7 @@ std::vector<LoadedFace> faces_under(const FaceLoad& load, const Assembly& assemb
   return under;
 }
 
-void add_fill(const FaceLoad& load, const Assembly& assembly, const std::string& key, const Vec3& gravity,
+void add_fill(const FaceLoad& load, const Assembly& assembly, const std::string& key, const Loads& loads,
               int time, std::vector<PointForce>* forces) {
   const Fill& fill = *load.fill;
   std::vector<LoadedFace> faces = faces_under(load, assembly, key);
@@ -87,19 +87,29 @@ void add_fill(const FaceLoad& load, const Assembly& assembly, const std::string&
         beside_fill(fill, faces_of_kind(assembly, kOutside, load.from_ring, load.to_ring, load.member), faces,
                     joint_rule(smallest_block_size(assembly), 0.0).margin),
         std::back_inserter(faces));
-  for (const LoadedFace& face : faces)
-    if (const auto [point, force] = fill_force(fill, face, gravity); force.norm() > 0.0)
-      forces->push_back({face.block, point, force, time});
+  // The pull acts in full, whatever part of the dead load.
+  const bool splits = is_dead_load(load) && !std::holds_alternative<ConstantInTime>(loads.dead_load_time);
+  for (const LoadedFace& face : faces) {
+    const auto [point, force] = fill_force(fill, face, loads.gravity + loads.pull);
+    if (force.norm() == 0.0) continue;
+    const Vec3 pulled = splits ? Vec3(force - fill_force(fill, face, loads.gravity).force) : Vec3(0, 0, 0);
+    forces->push_back({face.block, point, force - pulled, time});
+    if (pulled.norm() > 0.0) forces->push_back({face.block, point, pulled, PointForce::kSteady});
+  }
 }
 
 }  // namespace
 
-void add_face_load(const FaceLoad& load, const Assembly& assembly, const std::string& key,
-                   const Vec3& gravity, int time, std::vector<PointForce>* forces) {
+bool is_dead_load(const FaceLoad& load) {
+  return load.fill && std::holds_alternative<ConstantInTime>(load.time);
+}
+
+void add_face_load(const FaceLoad& load, const Assembly& assembly, const std::string& key, const Loads& loads,
+                   int time, std::vector<PointForce>* forces) {
   check_member_exists(assembly, load.member, key);
   if (load.traction.norm() > 0.0 || load.pressure != 0.0 || !load.fill)
     add_traction(load, assembly, key, time, forces);
-  if (load.fill) add_fill(load, assembly, key, gravity, time, forces);
+  if (load.fill) add_fill(load, assembly, key, loads, time, forces);
 }
 
 }  // namespace cupola
