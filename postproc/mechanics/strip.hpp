@@ -25,8 +25,8 @@ bool stands_on(const ThrustInput& in, int block, int bed);
 /// The bed and base joints of a block on a bed: on one that closes a stack those over it, else those under it.
 std::vector<const JointWrench*> joints_on(const ThrustInput& in, int block, int bed);
 
-/// What crosses a bed in the strip under (on a bed that closes a stack over) one block, or at one joint of a stone round
-/// the axis.
+/// What crosses a bed in the strip under (on a bed that closes a stack over) one block, or at one joint of a
+/// stone round the axis.
 struct Strand {
   BlockBed block;  ///< of a joint: with its own range of azimuths
   bool of_joint = false;
