@@ -192,6 +192,21 @@ std::string missing_file(const std::string& folder, int index) {
   return "";
 }
 
+/// Names of the files of ties that ties.pvd lists: not every frame has one.
+std::set<std::string> listed_ties(const std::string& folder) {
+  std::set<std::string> files;
+  const std::string path = in_folder(folder, "ties.pvd");
+  if (!std::filesystem::exists(path)) return files;
+  for (const PvdEntry& entry : read_pvd(path)) files.insert(entry.file);
+  return files;
+}
+
+/// True if a frame has ties, also where their file was removed.
+bool has_ties(const std::string& folder, const std::set<std::string>& listed, int index) {
+  const std::string file = frame_file("ties", index);
+  return listed.contains(file) || std::filesystem::exists(in_folder(folder, file));
+}
+
 void check_frame_is_there(const std::string& folder, int index) {
   if (const std::string missing = missing_file(folder, index); !missing.empty())
     throw SystemError(missing + ": was removed during the run, which therefore stops");
@@ -206,12 +221,13 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
       case_hash_(std::move(case_hash)),
       times_(std::move(times)) {
   make_folder(folder_);
+  const std::set<std::string> ties = times_.empty() ? std::set<std::string>{} : listed_ties(folder_);
   for (int i = 0; i < static_cast<int>(times_.size()); ++i) {
     if (const std::string missing = missing_file(folder_, i); !missing.empty())
       throw InputError(
           FileLocation{missing},
           "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
-    if (std::filesystem::exists(in_folder(folder_, frame_file("ties", i)))) with_ties_.push_back(i);
+    if (has_ties(folder_, ties, i)) with_ties_.push_back(i);
   }
   std::filesystem::remove(in_folder(folder_, kInterrupted));
   if (times_.empty()) return;
@@ -318,6 +334,7 @@ ResultsReader::ResultsReader(std::string folder, const std::string& assembly_has
                      fmt::format("the run found no state that could be evaluated: {}", summary_.message));
   for (const PvdEntry& entry : read_pvd(in_folder(folder_, "contacts.pvd"))) times_.push_back(entry.time);
   if (times_.empty()) throw InputError(FileLocation{in_folder(folder_, "contacts.pvd")}, "lists no frames");
+  listed_ties_ = listed_ties(folder_);
 }
 
 Frame ResultsReader::read_frame(int index) const {
@@ -329,7 +346,7 @@ Frame ResultsReader::read_frame(int index) const {
   frame.contacts = read_contacts(contacts);
   frame.blocks = read_blocks(read_frame_mesh(in_folder(folder_, frame_file("blocks", index)), run));
   const std::string ties_path = in_folder(folder_, frame_file("ties", index));
-  if (std::filesystem::exists(ties_path)) frame.ties = read_ties(read_frame_mesh(ties_path, run));
+  if (has_ties(folder_, listed_ties_, index)) frame.ties = read_ties(read_frame_mesh(ties_path, run));
   check_contacts(frame, contacts_path);
   check_ties(frame, ties_path);
   if (contacts.field<std::int32_t>("format_version") == kFrameFormatVersion)

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,7 @@ class ResultsReader {
   std::string assembly_hash_;
   Summary summary_;
   std::vector<double> times_;
+  std::set<std::string> listed_ties_;  // their files
 };
 
 }  // namespace cupola

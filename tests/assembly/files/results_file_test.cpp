@@ -270,6 +270,10 @@ TEST(ResultsFile, ErrorsNameForeignOrIncompleteFolders) {
   std::filesystem::remove(folder + "/contacts_0001.vtp");
   EXPECT_TRUE(has(open_error(folder, hash), "contacts_0001.vtp: error: does not exist"));
 
+  folder = written_results("without_ties");
+  std::filesystem::remove(folder + "/ties_0001.vtp");
+  EXPECT_TRUE(has(open_error(folder, hash), "ties_0001.vtp: error: does not exist"));
+
   folder = written_results("c");
   std::filesystem::resize_file(folder + "/blocks_0001.vtp", 700);
   EXPECT_TRUE(has(open_error(folder, hash), "blocks_0001.vtp: error: is truncated"));
