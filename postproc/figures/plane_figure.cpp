@@ -33,11 +33,14 @@ std::string caption_of(const PlaneCut& cut, double largest, const ForceUnit& uni
   std::string text = fmt::format(
       "The plane through ({:g}, {:g}, {:g}) m with normal ({:.3g}, {:.3g}, {:.3g}). Circles: normal force of "
       "each joint across it, compression blue and tension orange; their areas are to scale, the largest is "
-      "{:.3g} {}. On the blocks beyond, {} together exert {:.4g} {} along the normal and "
-      "{:.4g} {} in the plane.",
+      "{:.3g} {}. On the blocks beyond, {} {} {:.4g} {} along the normal and {:.4g} {} in the plane.",
       cut.point.x(), cut.point.y(), cut.point.z(), cut.normal.x(), cut.normal.y(), cut.normal.z(),
-      unit.per_newton * largest, unit.name, counted(cut.joints.size(), "joint"), sum.per_newton * through,
-      sum.name, sum.per_newton * along, sum.name);
+      unit.per_newton * largest, unit.name, counted(cut.joints.size(), "joint"),
+      cut.joints.size() == 1 ? "exerts" : "together exert", sum.per_newton * through, sum.name,
+      sum.per_newton * along, sum.name);
+  if (!cut.from_ties.isZero(0.0))
+    text += fmt::format(" The ties across it exert {} along the normal.",
+                        force_text(cut.from_ties.dot(cut.normal)));
   const ForceUnit load = force_unit(cut.load_beyond.norm());
   return text +
          fmt::format(

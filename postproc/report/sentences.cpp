@@ -101,9 +101,12 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
   const std::vector<KeyNumber> leading = key_numbers(e, {});  // is not repeated
   if (s.largest_strength_use && !leads(leading, kLargestPressure)) out.push_back(strength_text(s));
   for (const PlaneCut& cut : e.planes)
-    out.push_back(
-        fmt::format("The joints across the plane {} transmit {} to the part beyond.", cut.name,
-                    normal_force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N))));
+    out.push_back(fmt::format(
+        "The joints across the plane {} transmit {} to the part beyond{}.", cut.name,
+        normal_force_text(above(cut.across.force.dot(cut.normal), s.negligible_force_N)),
+        cut.from_ties.isZero(0.0) ? ""
+                                  : ", and the ties " + normal_force_text(above(cut.from_ties.dot(cut.normal),
+                                                                                s.negligible_force_N))));
   for (const ChainForces& chain : e.chains) out.push_back(chain_text(chain));
   add_rings(e, s, &out);
   if (s.rib_over_mid_sail)

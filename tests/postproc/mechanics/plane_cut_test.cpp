@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/figures/figures.hpp"
+#include "postproc/report/report.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/result_tables.hpp"
@@ -77,8 +79,7 @@ TEST(PlaneCut, ABlockWhoseCentroidIsOnThePlaneIsBeyondNeitherSide) {
 }
 
 TEST(PlaneCut, AppearsInTablesFiguresAndFiles) {
-  const Evaluation e =
-      column_with({{"level", {0, 0, 0.9}, {0, 0, 1}}, {"upright", {0.6, 0.4, 0}, {1, 0, 0}}});
+  Evaluation e = column_with({{"level", {0, 0, 0.9}, {0, 0, 1}}, {"upright", {0.6, 0.4, 0}, {1, 0, 0}}});
   const Table table = plane_table(e, e.planes[0]);
   ASSERT_EQ(table.rows.size(), 1u);
   EXPECT_NEAR(std::get<double>(table.rows[0][10]), kBlockWeight, 1e-12 * kBlockWeight) << "through";
@@ -93,6 +94,16 @@ TEST(PlaneCut, AppearsInTablesFiguresAndFiles) {
   int segments = 0;
   for (size_t i = 0; i < what.size(); ++i) segments += what[i] == 0 && cut[i] == 1 ? 1 : 0;
   EXPECT_EQ(segments, 1) << "cut 0 is the section at 0.8 m";
+  const auto says = [&e](const std::string& text) {
+    std::string all = plane_figure(e, e.planes[0]).caption;
+    for (const std::string& sentence : finding_sentences(e)) all += sentence;
+    return all.find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(says("1 joint exerts "));
+  EXPECT_FALSE(says("ties")) << "there are none";
+  e.planes[0].from_ties.z() = -2.0 * kBlockWeight;
+  EXPECT_TRUE(says("The ties across it exert -" + force_text(2.0 * kBlockWeight) + " along the normal"));
+  EXPECT_TRUE(says(", and the ties a pull of " + force_text(2.0 * kBlockWeight) + "."));
   EXPECT_NE(post_summary_json(e).find("\"upright\""), std::string::npos);
 }
 
