@@ -36,8 +36,16 @@ std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
   return pushing;
 }
 
+int lowest_course(const Assembly& assembly, const Sheet& sheet) {
+  const auto [first, end] = assembly.stack_of(sheet.first_ring);
+  int lowest = end;
+  for (const Block& block : assembly.blocks)
+    if (const int ring = ring_above_support(block); ring >= first) lowest = std::min(lowest, ring);
+  return lowest < end ? lowest : first;
+}
+
 const RingSum& base_of(const Evaluation& e, const Sheet& sheet) {
-  return e.rings.at(e.assembly.stack_of(sheet.first_ring).first);
+  return e.rings.at(lowest_course(e.assembly, sheet));
 }
 
 bool alike(double a, double b) {

@@ -11,7 +11,10 @@ namespace cupola {
 /// stacks of which no block of the lowest course is at rest: they have fallen, or are not laid.
 std::vector<const Sheet*> pushing_sheets(const Evaluation& evaluation);
 
-/// The cut under the lowest course of the stack of a sheet.
+/// The lowest course of the stack of a sheet that has stones: cuts may have removed others as a whole.
+int lowest_course(const Assembly& assembly, const Sheet& sheet);
+
+/// The cut under that course.
 const RingSum& base_of(const Evaluation& evaluation, const Sheet& sheet);
 
 /// The outward thrust of a stack, of an arch at one springing.

@@ -110,9 +110,9 @@ constexpr const char* kAndHigher = ", and at supports of higher courses";
 
 /// True if supports hold higher courses too, as walls hold the edges of a vault or the ends of a barrel.
 bool is_held_higher(const Evaluation& e, const Sheet& sheet) {
-  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  const int first = lowest_course(e.assembly, sheet), end = e.assembly.stack_of(sheet.first_ring).second;
   const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
-  return std::ranges::any_of(e.last.joints.wrenches, [&, first = first, end = end](const JointWrench& joint) {
+  return std::ranges::any_of(e.last.joints.wrenches, [&](const JointWrench& joint) {
     const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid, joint.patch.plane.normal);
     if (bearer < 0 || !e.assembly.blocks[bearer].fixed) return false;
     const Block& pushing = e.assembly.blocks[bearer == joint.block_a ? joint.block_b : joint.block_a];
@@ -257,7 +257,6 @@ std::string doubt_of(const Evaluation& e) {
     return "at the critical value, not that of the case";
   if (e.summary.forces_unique.reason == ForcesUnique::kOneOfMany)
     return "of one of the admissible states: their range was not computed";
-  if (e.scene.joints.have_strength()) return "";
   return "depends on the stiffness of the joints: the range over all states was not computed";
 }
 
