@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -44,10 +45,7 @@ std::string at_rest_html(const Evaluation& e) {
                        j.friction_use > kSlides ? "is at its friction limit" : "is the nearest to sliding",
                        100.0 * j.friction_use, html_text(normal_force_text(j.normal_force)));
   }
-  const auto opens = [](const JointWrench& j) {
-    return j.kern > 0.0 || (j.patch.area == 0.0 && j.normal_force > 0.0);
-  };
-  if (worst.edge && opens(e.last.joints.wrenches[*worst.edge])) {
+  if (worst.edge && e.last.joints.wrenches[*worst.edge].kern != 0.0) {  // NaN on a line
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
     const bool on_edge = j.edge_distance <= 1e-3 * std::sqrt(j.patch.area);
     out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
@@ -103,9 +101,10 @@ WorstJoints worst_joints(const JointWrenches& joints) {
   for (const JointWrench& joint : joints.wrenches) largest = std::max(largest, joint.wrench.force.norm());
   WorstJoints worst;
   const auto use = [&](size_t j) { return std::min(joints.wrenches[j].friction_use, kSlides); };
-  const auto edge = [&](size_t j) {  // a line is all edge
-    const double area = joints.wrenches[j].patch.area;
-    return area > 0.0 ? joints.wrenches[j].edge_distance / std::sqrt(area) : 0.0;
+  const auto kern = [&](size_t j) {  // a line is all edge
+    const JointWrench& joint = joints.wrenches[j];
+    return joint.patch.area == 0.0 && joint.normal_force > 0.0 ? std::numeric_limits<double>::infinity()
+                                                               : joint.kern;
   };
   for (size_t j = 0; j < joints.wrenches.size(); ++j) {
     const JointWrench& joint = joints.wrenches[j];
@@ -114,8 +113,8 @@ WorstJoints worst_joints(const JointWrenches& joints) {
         std::isfinite(joint.friction_use) &&
         (!w || std::pair(use(j), joint.normal_force) > std::pair(use(*w), joints.wrenches[*w].normal_force)))
       worst.sliding = j;
-    if (joint.wrench.force.norm() >= kLoaded * largest && std::isfinite(joint.edge_distance) &&
-        (!worst.edge || edge(j) < edge(*worst.edge)))
+    if (joint.wrench.force.norm() >= kLoaded * largest && !std::isnan(kern(j)) &&
+        (!worst.edge || kern(j) > kern(*worst.edge)))
       worst.edge = j;
   }
   return worst;

@@ -7,12 +7,12 @@
 
 namespace cupola {
 
-/// The joint nearest to sliding, and the one whose force is nearest to its edge, as indices into the joints
+/// The joint nearest to sliding, and the one that is nearest to a hinge, as indices into the joints
 /// of the frame evaluated. None without loaded joints.
 struct WorstJoints {
   std::optional<size_t>
       sliding;  ///< largest friction use; of those that use all of it, the largest normal force
-  std::optional<size_t> edge;  ///< least distance of the force from the edge, over the size of the joint
+  std::optional<size_t> edge;  ///< largest kern utilisation; a line is all edge
 };
 WorstJoints worst_joints(const JointWrenches& joints);
 

@@ -44,6 +44,23 @@ TEST(WorstJoints, ALineThatCarriesIsAHinge) {
   EXPECT_NE(html.find("acts on the edge.<"), std::string::npos) << html;
 }
 
+// The force of a long joint may be near its edge and central: a third of the kern of a strip of 1 m by 0.1 m.
+// That at three quarters of half the width of a square is farther from the edge, and outside the kern.
+TEST(WorstJoints, AreNearAHingeByTheKern) {
+  JointWrenches joints;
+  const auto add = [&joints](double area, double edge_distance, double kern) {
+    JointWrench joint;
+    joint.wrench.force.z() = joint.normal_force = 1e3;
+    joint.patch.area = area;
+    joint.edge_distance = edge_distance;
+    joint.kern = kern;
+    joints.wrenches.push_back(joint);
+  };
+  add(0.1, 0.044, 1.0 / 3.0);
+  add(1.0, 0.125, 2.25);
+  EXPECT_EQ(worst_joints(joints).edge, 1u);
+}
+
 // The lower corners of the beds push to and fro, so that the upper block only turns: their resultant is
 // central and normal.
 TEST(WorstJoints, FrictionThatOnlyResistsTurningIsUsed) {
