@@ -52,26 +52,21 @@ bool stands_at(const Assembly& placed, int first, int end, double height) {
   return low <= height + rounding && height + rounding < high;
 }
 
-/// The bed nearest to a height in each flight of each stack that stands there, or of all where none does, and
-/// whether its flight goes down.
+/// The bed nearest to a height in each flight of each stack that stands there, and whether its flight goes
+/// down.
 std::vector<std::pair<int, bool>> nearest_beds(const Evaluation& e, const Assembly& placed, double height) {
   const auto distance = [&](int bed) { return std::abs(height_of(e, bed) - height); };
   std::vector<std::pair<int, bool>> nearest;
-  std::pair<int, bool> nearest_of_all{-1, false};
   const int num_rings = static_cast<int>(e.rings.size());
   for (int first = 0, end = 0; first < num_rings; first = end) {
     end = std::min(e.assembly.stack_of(first).second, num_rings);
-    const bool stands = stands_at(placed, first, end, height);
+    if (!stands_at(placed, first, end, height)) continue;
     bool downwards = false;
     for (const std::vector<int>& beds : flights_of(e, first, end)) {
       if (beds.empty()) continue;
-      const std::pair at{*std::ranges::min_element(beds, {}, distance), std::exchange(downwards, true)};
-      if (stands) nearest.push_back(at);
-      if (nearest_of_all.first < 0 || distance(at.first) < distance(nearest_of_all.first))
-        nearest_of_all = at;
+      nearest.emplace_back(*std::ranges::min_element(beds, {}, distance), std::exchange(downwards, true));
     }
   }
-  if (nearest.empty() && nearest_of_all.first >= 0) nearest.push_back(nearest_of_all);
   return nearest;
 }
 
@@ -104,8 +99,9 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Asse
   std::vector<SectionEvaluation> sections;
   for (const double height : e.scene.postproc.sections) {
     SectionEvaluation section{height, {}, cut_by_plane(placed, {Vec3::UnitZ(), height}, left_out), {}};
-    if (!left_out.empty() && section.polygons.empty()) continue;
-    for (const auto& [bed, downwards] : nearest_beds(e, placed, height)) {
+    const std::vector<std::pair<int, bool>> beds = nearest_beds(e, placed, height);
+    if (section.polygons.empty() && (!left_out.empty() || beds.empty())) continue;  // nothing is there
+    for (const auto& [bed, downwards] : beds) {
       section.beds.push_back(bed);
       add_resultants(e, input, bed, downwards, &section.resultants);
     }
