@@ -23,6 +23,7 @@ std::vector<int> beside_spiral(const Assembly& assembly, const JointWrenches& jo
 std::vector<BlockRow> block_rows(const Evaluation& e, const FrameEvaluation& frame) {
   const double g = e.scene.loads.gravity.norm();
   const std::vector<int> beside = beside_spiral(e.assembly, frame.joints);
+  const bool mechanism = is_mechanism(frame.frame.role);  // drawn with an amplitude that it does not have
   std::vector<BlockRow> rows;
   rows.reserve(e.assembly.blocks.size());
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
@@ -31,7 +32,7 @@ std::vector<BlockRow> block_rows(const Evaluation& e, const FrameEvaluation& fra
                     .fields = frame.fields[b],
                     .from_below = frame.from_below[b],
                     .axis = central_axis(frame.from_below[b]),
-                    .displacement = frame.frame.blocks.displacement[b],
+                    .displacement = mechanism ? Vec3::Zero() : frame.frame.blocks.displacement[b],
                     .weight = block.mass * g,
                     .index = static_cast<int>(b),
                     .ring = block.ring,

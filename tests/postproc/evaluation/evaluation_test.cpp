@@ -14,6 +14,7 @@
 #include "postproc/report/report.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/post_summary.hpp"
+#include "postproc/tables/result_columns.hpp"
 #include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/scene.hpp"
 
@@ -231,6 +232,8 @@ TEST(Evaluation, LimitAnalysisEvaluatesTheEquilibriumAndDisplacesTheMechanism) {
   const double shown = 0.025 * std::max(1.0, std::cbrt(a.blocks[0].volume));
   EXPECT_NEAR(mechanism.frame.blocks.displacement[3].x(), shown, 1e-12);
   EXPECT_EQ(mechanism.frame.blocks.displacement[2].norm(), 0.0);
+  for (const BlockRow& row : block_rows(e, mechanism))
+    EXPECT_TRUE(row.displacement.isZero(0.0)) << "in tables";
   EXPECT_EQ(mechanism.groups, (std::vector{0, 0, 0, 1}));
 }
 
