@@ -44,7 +44,7 @@ void add_bed(const JointWrench& joint, Collected* at) {
   at->bed_force += joint.normal_force;
   at->sum.largest_friction_use = std::fmax(at->sum.largest_friction_use, joint.friction_use);  // skips NaN
   at->sum.largest_kern = std::fmax(at->sum.largest_kern, joint.kern);
-  if (joint.area > 0.0) at->pressures.push_back(joint.normal_force / joint.area);
+  if (joint.area > 0.0) at->pressures.push_back(joint.negligible ? 0.0 : joint.normal_force / joint.area);
 }
 
 /// The sum with its means.

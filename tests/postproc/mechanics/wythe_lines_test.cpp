@@ -233,6 +233,13 @@ TEST(WytheSums, AddUpToTheRingAndKnowWhereTheyAct) {
     EXPECT_NEAR(inner.pressure, across(kInner, ring) / 0.5, 1e-9);
     EXPECT_NEAR(inner.cv_pressure, 0.0, 1e-12);
   }
+  JointWrenches negligible = scene.joints;
+  for (size_t j = 0; j < negligible.wrenches.size(); ++j) {
+    negligible.wrenches[j].negligible = true;
+    negligible.wrenches[j].normal_force *= static_cast<double>(1 + j % 2);  // rounding differs
+  }
+  for (const WytheSum& none : wythe_sums(scene.assembly, scene.shell, negligible, scene.contacts))
+    EXPECT_EQ(none.cv_pressure, 0.0);
   const WytheSum both = sum(4, 2, {0, 2});
   EXPECT_NEAR(both.vertical_force, 1400.0 * kPerRing, 1e-8);
   EXPECT_NEAR(both.position, 0.2, 1e-10) << "of the whole thickness";
