@@ -27,7 +27,8 @@ struct Drawn {
 std::vector<Drawn> drawn_meridians(const Evaluation& e, const Sheet& sheet, bool alone) {
   using enum Sheet::ThrustLines;
   const auto name = [&](const std::string& own) { return alone ? own : sheet.name + " " + own; };
-  if (sheet.thrust_lines == one) return {{alone ? "arch" : sheet.name, std::nullopt, sheet.first_ring}};
+  if (sheet.thrust_lines == one)
+    return {{alone ? std::string(kOnlyArch) : sheet.name, std::nullopt, sheet.first_ring}};
   if (sheet.thrust_lines != by_azimuth) return {};
   std::vector<Drawn> meridians;
   for (const Meridian& meridian : e.scene.postproc.meridians)
@@ -127,7 +128,8 @@ void warn_of_hoop_tension(const HoopTension& least, const HoopTension& greatest,
 
 std::string in_file_names(std::string text) {
   for (char& c : text)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
+    if (const auto code = static_cast<unsigned char>(c); code < 0x80 && std::isalnum(code) == 0 && c != '-')
+      c = '_';
   return text;
 }
 

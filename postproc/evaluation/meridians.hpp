@@ -7,7 +7,10 @@
 
 namespace cupola {
 
-/// The name of a wythe as a part of file names: letters, digits, _ and -.
+/// Name of the thrust line of a model that is one arch.
+inline constexpr const char* kOnlyArch = "arch";
+
+/// The name of a wythe or member as a part of file names: letters, digits, _ and -, and what is not ASCII.
 std::string in_file_names(std::string text);
 
 /// What the thrust lines of a frame are computed from. It refers to both arguments.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/evaluation/meridians.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/shell_maps.hpp"
 
@@ -81,7 +82,7 @@ Figure hoop_figure(const MeridianEvaluation& m) {
   for (const HoopRow& row : m.hoop)
     if (row.tie_force != 0.0) ties.push_back({row.height, unit.per_newton * row.tie_force});
   Figure f;
-  f.name = "hoop_" + m.thrust.name;
+  f.name = "hoop_" + in_file_names(m.thrust.name);
   f.title = fmt::format("Hoop forces across the meridian {} ({:g} deg)", m.thrust.name, m.thrust.azimuth_deg);
   f.caption =
       "Hoop force of each ring across the meridian, compression positive. Dry head joints carry "

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/evaluation/meridians.hpp"
 #include "postproc/figures/figures.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/wythe_curves.hpp"
@@ -246,8 +247,8 @@ Figure thrust_figure(const Evaluation& e, const MeridianEvaluation& m) {
   }
   const ForceUnit unit = force_unit(largest);
   Figure f;
-  f.name = "thrust_" + line.name;
-  f.title = arch ? "Thrust line of the arch"
+  f.name = "thrust_" + in_file_names(line.name);
+  f.title = arch ? "Thrust line of " + (line.name == kOnlyArch ? "the arch" : line.name)
                  : fmt::format("Thrust line, meridian {} ({:g} deg)", line.name, line.azimuth_deg);
   f.caption =
       describe(line) +

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "postproc/evaluation/meridians.hpp"
 #include "postproc/evaluation/sections.hpp"
 #include "postproc/tables/observed_cracks.hpp"
 #include "postproc/tables/result_columns.hpp"
@@ -109,13 +110,13 @@ Table block_table(const Evaluation& e, std::span<const BlockRow> blocks) {
 }
 
 Table thrust_table(const ThrustLine& line) {
-  return make_table("thrust_" + line.name, "Thrust line of the meridian " + line.name, thrust_columns(),
-                    line.points);
+  return make_table("thrust_" + in_file_names(line.name), "Thrust line of the meridian " + line.name,
+                    thrust_columns(), line.points);
 }
 
 Table hoop_table(const MeridianEvaluation& m) {
-  return make_table("hoop_" + m.thrust.name, "Hoop forces across the meridian " + m.thrust.name,
-                    hoop_columns(), m.hoop);
+  return make_table("hoop_" + in_file_names(m.thrust.name),
+                    "Hoop forces across the meridian " + m.thrust.name, hoop_columns(), m.hoop);
 }
 
 Table crack_table(const Evaluation& e) {

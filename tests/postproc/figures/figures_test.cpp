@@ -16,6 +16,7 @@
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/figures/shell_maps.hpp"
 #include "postproc/tables/mesh_output.hpp"
+#include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/figures/figure_data.hpp"
 #include "tests/postproc/scene.hpp"
 
@@ -137,8 +138,13 @@ TEST(ShellMaps, OfAnArchRunAcrossIt) {
   ASSERT_EQ(map.boxes.size(), 3u);
   for (const ShellBox& box : map.boxes) EXPECT_NEAR(box.to - box.from, 1.2, 1e-12);
   EXPECT_NE(utilisation_map(map, {}).title.find("over the arch"), std::string::npos);
-  EXPECT_NE(thrust_figure(e, e.meridians.front()).caption.find("resultant of the full width"),
-            std::string::npos);
+  MeridianEvaluation line = e.meridians.front();
+  EXPECT_NE(thrust_figure(e, line).caption.find("resultant of the full width"), std::string::npos);
+  EXPECT_EQ(thrust_figure(e, line).title, "Thrust line of the arch");
+  line.thrust.name = "buttress 2";
+  EXPECT_EQ(thrust_figure(e, line).title, "Thrust line of buttress 2");
+  EXPECT_EQ(thrust_figure(e, line).name, "thrust_buttress_2");
+  EXPECT_EQ(thrust_table(line.thrust).name, "thrust_buttress_2");
   // Outwards of an arch is along x: by the slanting direction from the z axis a barrel lost a fifth of its
   // thrust.
   EXPECT_EQ(outward_at({-3.0, 2.0, 0.0}, true), Vec3(-1, 0, 0));
