@@ -76,6 +76,18 @@ KeyNumber critical_answer(const Evaluation& e) {
           value_text(critical.stable, unit), fmt::format("{}", fmt::join(details, "; "))};
 }
 
+/// An argument as a shell takes it: in quotes where it has other characters than plain names.
+std::string in_shell(const std::string& argument) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string("_-.+").find(c) != std::string::npos;
+  };
+  if (std::ranges::all_of(argument, plain)) return argument;
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? "'\\''" : std::string(1, c);
+  return text + "'";
+}
+
 /// How to compute the margins of this case.
 std::string command_for_margins(const Evaluation& e) {
   if (is_stage(e.last.frame.role)) {
@@ -85,7 +97,7 @@ std::string command_for_margins(const Evaluation& e) {
     return fmt::format("`analysis.staged.least: {}`", cohesion ? "cohesion" : "friction");
   }
   const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
-  return "cupola assess " + file.filename().string();
+  return "cupola assess " + in_shell(file.filename().string());
 }
 
 /// "load: the structure moves at every value; 3 groups ..." without the parameter and the mechanism.

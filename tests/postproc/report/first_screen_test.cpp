@@ -37,8 +37,10 @@ TEST(FirstScreen, OfTheSlidingJointsTheMostLoadedIsTheWorst) {
 TEST(FirstScreen, TheWorstEdgeIsThatOfALoadedJoint) {
   JointWrenches joints;
   joints.wrenches = {joint(1000, 0.1, 0.4), joint(5, 0.1, 0.001), joint(500, 0.1, 0.3)};
+  for (JointWrench& j : joints.wrenches) j.kern = (0.5 - j.edge_distance) * 6.0;  // of a square of 1 m2
   EXPECT_EQ(worst_joints(joints).edge, 2u) << "joint 1 carries less than a tenth of the largest force";
-  joints.wrenches[2].patch.area = 0.25;  // 0.3 m are more than half of its side of 0.5 m
+  joints.wrenches[2].patch.area = 0.36;
+  joints.wrenches[2].kern = 0.0;  // 0.3 m are half of its side of 0.6 m
   EXPECT_EQ(worst_joints(joints).edge, 0u);
 }
 
@@ -193,6 +195,8 @@ TEST(FirstScreen, WithoutAMarginItNamesTheCommandThatComputesOne) {
   EXPECT_EQ(verdict_words(e).words, "It stands");
   EXPECT_EQ(margin_answer(e).value, "not computed");
   EXPECT_EQ(margin_answer(e).detail, "to compute it: cupola assess my_dome.yaml");
+  e.scene.file = "O'Neill's dome.yaml";
+  EXPECT_EQ(margin_answer(e).detail, "to compute it: cupola assess 'O'\\''Neill'\\''s dome.yaml'");
   const std::vector<std::string> lines = terminal_lines(e, "post/report.html");
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_TRUE(lines.front().starts_with("It stands: The joint forces carry the weight of 3 blocks, "))
