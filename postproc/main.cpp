@@ -21,6 +21,8 @@
 #include "postproc/analyse.hpp"
 #include "postproc/compare/compare.hpp"
 #include "postproc/export_run.hpp"
+#include "postproc/report/load_path.hpp"
+#include "postproc/report/stages.hpp"
 #include "postproc/studies/study_command.hpp"
 #include "postproc/tables/result_columns.hpp"
 
@@ -92,7 +94,9 @@ ExitCode run(int argc, char** argv) {
   if (command == "compare") return run_compare(argc - 1, argv + 1);
   if (command == "study") return run_study(argc - 1, argv + 1);
   if (command == "columns") {
-    fmt::print("{}", column_reference());
+    fmt::print("{}",
+               column_reference({{"path.csv", path_columns()},
+                                 {"stages.csv", construction_columns(StagedConstruction::Least::cohesion)}}));
     return ExitCode::done;
   }
   if (command == "--version") {

@@ -10,28 +10,28 @@
 
 namespace cupola {
 
+std::vector<Table::Column> path_columns() {
+  return {{"time_s", "s",
+           "to which loads, friction and supports follow their functions of time; found if the path has a "
+           "length"},
+          {"displacement_m", "m", "of the control block along its direction, from relative_to if given"},
+          {"force_N", "N",
+           "along that direction: of a support on the blocks; of all loads, if the control block is free"},
+          {"dissipated_J", "J",
+           "in joints and ties since the start: friction, tension, cohesion, crushing and yielding"},
+          {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"},
+          {"widest_gap_m", "m", "widest gap of an open joint"}};
+}
+
 Table path_table(const CsvFile& csv) {
-  Table t{"path", "Equilibria along the path of loads and support motions", {}, {}};
-  t.columns = {
-      {"time_s", "s",
-       "to which loads, friction and supports follow their functions of time; found if the path has a "
-       "length"},
-      {"displacement_m", "m", "of the control block along its direction, from relative_to if given"},
-      {"force_N", "N",
-       "along that direction: of a support on the blocks; of all loads, if the control block is free"},
-      {"dissipated_J", "J",
-       "in joints and ties since the start: friction, tension, cohesion, crushing and yielding"},
-      {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"}};
-  const size_t time = csv.column("time_s"), displacement = csv.column("displacement_m");
-  const size_t force = csv.column("force_N"), work = csv.column("dissipated_J"),
-               damage = csv.column("mean_damage");
-  for (size_t row = 0; row < csv.rows.size(); ++row)
-    t.rows.push_back({csv.number(row, time), csv.number(row, displacement), csv.number(row, force),
-                      csv.number(row, work), csv.number(row, damage)});
-  if (std::ranges::find(csv.columns, "widest_gap_m") == csv.columns.end()) return t;  // version 0.2
-  t.columns.push_back({"widest_gap_m", "m", "widest gap of an open joint"});
-  for (size_t row = 0; row < csv.rows.size(); ++row)
-    t.rows[row].emplace_back(csv.number(row, csv.column("widest_gap_m")));
+  Table t{"path", "Equilibria along the path of loads and support motions", path_columns(), {}};
+  if (std::ranges::find(csv.columns, "widest_gap_m") == csv.columns.end())
+    t.columns.pop_back();  // version 0.2
+  for (size_t row = 0; row < csv.rows.size(); ++row) {
+    t.rows.emplace_back();
+    for (const Table::Column& column : t.columns)
+      t.rows.back().emplace_back(csv.number(row, csv.column(column.key)));
+  }
   return t;
 }
 

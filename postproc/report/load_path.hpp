@@ -8,7 +8,8 @@
 
 namespace cupola {
 
-/// The equilibria of a path (results/path.csv).
+/// The equilibria of a path (results/path.csv), and their columns.
+std::vector<Table::Column> path_columns();
 Table path_table(const CsvFile& csv);
 
 /// The times of the equilibria, s: those of a path by a length may fall.

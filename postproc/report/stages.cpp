@@ -82,6 +82,8 @@ std::string what_moves(const std::optional<CsvFile>& failures, double stage) {
   return text;
 }
 
+}  // namespace
+
 std::vector<Table::Column> construction_columns(Least least) {
   const std::string property = to_string(least), unit = least == Least::cohesion ? "Pa" : "";
   std::vector<Table::Column> columns{{"stage", "", "stage, counted from 0"},
@@ -102,8 +104,6 @@ std::vector<Table::Column> construction_columns(Least least) {
   columns.push_back({"displacement_m", "m", "largest distance of a block from its place in the assembly"});
   return columns;
 }
-
-}  // namespace
 
 CsvFile from_stages_csv(CsvFile old) {
   std::ranges::replace(old.columns, std::string("critical_stands"), std::string("least_stands"));

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "postproc/evaluation/evaluation.hpp"
 #include "postproc/figures/gnuplot.hpp"
@@ -18,8 +19,11 @@ struct StageReport {
   std::string worst;  ///< the first stage that does not stand, else the most demanding; "" for neither
 };
 
+/// The columns of its table. `least`: the property of the fresh mortar that was sought.
+std::vector<Table::Column> construction_columns(StagedConstruction::Least least);
+
 /// Of results/construction.csv, with what moves (results/failures.csv; none if nothing does) and the heights
-/// of the rings. `least`: the property of the fresh mortar that was sought.
+/// of the rings.
 StageReport report_stages(const Evaluation& evaluation, StagedConstruction::Least least,
                           const CsvFile& stages, const std::optional<CsvFile>& failures);
 

@@ -20,10 +20,14 @@ bool holds(const MeshFile& mesh, const std::string& array) {
   });
 }
 
+std::string head_of(const std::string& heading) {
+  return "### " + heading + "\n\n| column | unit | meaning | also in |\n|---|---|---|---|\n";
+}
+
 template <class Row>
 std::string reference_of(const std::string& heading, const Columns<Row>& columns,
                          const std::vector<MeshFile>& meshes) {
-  std::string text = "### " + heading + "\n\n| column | unit | meaning | also in |\n|---|---|---|---|\n";
+  std::string text = head_of(heading);
   for (const Column<Row>& column : columns) {
     const std::string array = column.array_name();
     std::vector<std::string> names = column.in_table ? column.table_keys() : std::vector{array}, files;
@@ -40,7 +44,14 @@ std::string reference_of(const std::string& heading, const Columns<Row>& columns
 
 }  // namespace
 
-std::string column_reference() {
+std::string column_reference(const std::vector<CopiedTable>& further) {
+  std::string copies;
+  for (const CopiedTable& table : further) {
+    copies += head_of(table.heading);
+    for (const Table::Column& column : table.columns)
+      copies += fmt::format("| `{}` | {} | {} | |\n", column.key, column.unit, column.meaning);
+    copies += "\n";
+  }
   return reference_of("ranges.csv: ranges over all admissible states", range_columns(),
                       {{"summary.json", {kRangeSummaryKeys}}}) +
          reference_of("rings.csv: ring cuts", ring_columns(), {{"summary.json", {kRingSummaryKeys}}}) +
@@ -72,7 +83,8 @@ std::string column_reference() {
              shell_columns(), {}) +
          reference_of("thrust_lines.vtp: cells", line_cell_columns(),
                       {{"thrust_lines.vtp", {kLineCellKeys}}}) +
-         reference_of("sections.vtp: cells", section_cell_columns(), {{"sections.vtp", {kSectionCellKeys}}});
+         reference_of("sections.vtp: cells", section_cell_columns(), {{"sections.vtp", {kSectionCellKeys}}}) +
+         copies;
 }
 
 }  // namespace cupola

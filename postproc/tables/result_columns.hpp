@@ -145,7 +145,14 @@ inline constexpr std::array kRingSummaryKeys{
 inline constexpr std::array kChainSummaryKeys{
     "chain", "height_m", "mean_force_N", "least_force_N", "greatest_force_N", "yield_force_N", "yielded_m"};
 
-/// Every list above as Markdown: name, unit and meaning of each column, and the mesh files that hold it.
-std::string column_reference();
+/// A table that shows one of the results again.
+struct CopiedTable {
+  std::string heading;
+  std::vector<Table::Column> columns;
+};
+
+/// Every list above as Markdown: name, unit and meaning of each column, and the mesh files that hold it; then
+/// the columns of further tables.
+std::string column_reference(const std::vector<CopiedTable>& further);
 
 }  // namespace cupola
