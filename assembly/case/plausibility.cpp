@@ -54,8 +54,7 @@ std::vector<std::string> undivided_joints(const Case& scene) {
   return {
       "contact.subdivide is not given: an undivided joint with compressive strength is 20 % too strong "
       "where a sixth of it bears, 85 % where a tenth does, and more below, because its edge never crushes, "
-      "and "
-      "a third too weak where half of it bears; write 8, and double it until the answer stays"};
+      "and a third too weak where half of it bears; write 8, and double it until the answer stays"};
 }
 
 }  // namespace cupola

@@ -172,7 +172,7 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit(
       "stands_at_both_ends", "",
       "limit analysis without a critical value: whether the structure stands, or moves, at both ends of its "
-      "bracket",
+      "bracket; absent if it stands only between them",
       s.stands_at_both_ends);
   visit("ranges", "", "range analysis only: one entry per quantity, see below", s.ranges);
   visit("parts", "",

@@ -111,8 +111,8 @@ bool along_border(const TwoParts& parts, const SeparatingAxis& axis, const Joint
   return false;
 }
 
-/// True if part of block a, or of b, extends behind the points of a contact: a side that a stone does not
-/// have where another of its parts continues its surface, as under a stone that slides over both.
+/// True if block a, or b, lies on both sides of the plane of a contact at its points. The part that touches
+/// ends there, but not the block: another part goes on, as under a stone that slides over both.
 bool extends_behind(const TwoParts& parts, bool of_a, const JointPatch& contact,
                     const NarrowPhaseOptions& options) {
   const CollisionModel& model = parts.model;

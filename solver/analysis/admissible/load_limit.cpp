@@ -100,6 +100,7 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
       limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
     } else if (bounded && end > low && end < high) {
       limit.message += fmt::format("; it stands up to {:g}", in_unit(end));
+      limit.stands_at_both_ends.reset();  // it does not move throughout
     } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
       limit.message =
           everywhere + (end < high ? fmt::format("; it stands only below, up to {:g}", in_unit(end))
