@@ -7,13 +7,13 @@
 #include <map>
 #include <numbers>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/polygon_parts.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
 #include "generators/stereotomy/cut_planes.hpp"
 #include "generators/stereotomy/internal_faces.hpp"
@@ -59,34 +59,35 @@ class Crossing {
         for (const int v : face.vertices) size_ = std::max(size_, assembly->vertices[v].norm());
   }
 
-  /// Joins stones across the groins, and gives the faces there their kinds.
+  /// Joins in each course the two stones that share the largest area of a groin, and gives the faces there
+  /// their kinds.
   void join() {
-    struct Meeting {
-      std::array<std::map<int, double>, 2> area;  // m2, of the stones on both sides
-      std::vector<ConvexPiece::Face*> faces;
-    };
-    std::map<std::pair<int, int>, Meeting> meetings;  // by course and wythe
+    using Patch = std::pair<int, PlanePolygon>;                                // stone of the web, face
+    std::map<std::pair<int, int>, std::array<std::vector<Patch>, 2>> patches;  // by course and wythe
     for (Piece& piece : pieces_)
       for (ConvexPiece::Face& face : piece.shape.faces)
         for (const int side : kSides)
           if (lies_in(face, groin_cut(webs(), side).normal, 0.0)) {
-            Meeting& meeting = meetings[{piece.part.ring, piece.part.wythe}];
-            meeting.area[side][piece.stone] += polygon_area(points_of(face));
-            meeting.faces.push_back(&face);
+            std::vector<Vec3> points = points_of(face);
+            for (Vec3& p : points) p = turn(-side) * p;  // the left side of the neighbour meets the right one
+            patches[{piece.part.ring, piece.part.wythe}][side].emplace_back(piece.stone, std::move(points));
+            face.kind = FaceKind::head;
           }
     std::array<std::set<int>, 2> used;
-    for (auto& [place, meeting] : meetings) {
-      std::array<std::optional<int>, 2> best;
-      for (const int side : kSides)
-        for (const auto& [stone, area] : meeting.area[side])
-          if (!used[side].contains(stone) && (!best[side] || area > meeting.area[side].at(*best[side])))
-            best[side] = stone;
-      if (is_bonded(place.first) && best[0] && best[1]) {
-        for (const int side : kSides) used[side].insert(*best[side]);
-        for (int web = 0; web < webs(); ++web)
-          unite(node(web, *best[0]), node((web + webs() - 1) % webs(), *best[1]));
-      }
-      for (ConvexPiece::Face* face : meeting.faces) face->kind = FaceKind::head;
+    for (const auto& [place, of_sides] : patches) {
+      if (!is_bonded(place.first)) continue;
+      std::map<std::pair<int, int>, double> shared;  // m2, by the stones on both sides
+      for (const auto& [right, face] : of_sides[0])
+        for (const auto& [left, other] : of_sides[1])
+          if (!used[0].contains(right) && !used[1].contains(left))
+            if (const auto patch = divide(face.corners, other, rounding()).inside; !patch.empty())
+              shared[{right, left}] += polygon_area(patch);
+      if (shared.empty()) continue;
+      const auto [right, left] =
+          std::ranges::max_element(shared, {}, [](const auto& pair) { return pair.second; })->first;
+      used[0].insert(right);
+      used[1].insert(left);
+      for (int web = 0; web < webs(); ++web) unite(node(web, right), node((web + webs() - 1) % webs(), left));
     }
   }
 
