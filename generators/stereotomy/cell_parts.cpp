@@ -5,6 +5,10 @@
 #include <initializer_list>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "generators/stereotomy/convex_clip.hpp"
 
 namespace cupola {
 namespace {
@@ -147,6 +151,18 @@ void add_parts(const CellGrid& grid, const CellRange& cells, GridPoints* points,
   }
   start_part(grid, cells, assembly);
   add_hexahedron_faces(cell, points->flat_skins(), assembly);
+}
+
+void refuse_inverted_parts(const Assembly& assembly, size_t first, const std::string& key) {
+  for (size_t p = first; p < assembly.parts.size(); ++p) {
+    const Part& part = assembly.parts[p];
+    if (volume_of(assembly, piece_of(assembly, part)) > 0.0) continue;
+    const Vec3 at = polygon_centroid(face_points(assembly, part.face_start));
+    throw InputError(
+        fmt::format("{}: block {} about ({:.4g}, {:.4g}, {:.4g}) m is inside out, because its beds or its "
+                    "skins meet inside the shell: choose a smaller thickness, a larger eye or other `beds`",
+                    key, part.block, at.x(), at.y(), at.z()));
+  }
 }
 
 }  // namespace cupola

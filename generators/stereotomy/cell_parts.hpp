@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "assembly/model/assembly.hpp"
 #include "generators/stereotomy/cell_grid.hpp"
 #include "generators/stereotomy/grid_points.hpp"
@@ -15,5 +17,9 @@ namespace cupola {
 /// coplanar, into a prism that is convex, and a prism that is cut again, into a tetrahedron and a pyramid. No
 /// part has corners other than those of the cell, so that faces of neighbours mate.
 void add_parts(const CellGrid& grid, const CellRange& cells, GridPoints* points, Assembly* assembly);
+
+/// Throws InputError that begins with `key` for a part from `first` on whose faces point inwards. Cuts would
+/// take it for a sliver and drop it.
+void refuse_inverted_parts(const Assembly& assembly, size_t first, const std::string& key);
 
 }  // namespace cupola

@@ -202,6 +202,7 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   const int first_member = static_cast<int>(assembly->members.size());
   assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
   points.make_shared(first_member, assembly);
+  const size_t first_part = assembly->parts.size();
   for (int bond_block : grid.order) {
     Block block = make_block(grid, bond_block, options.density);
     block.member += first_member;
@@ -213,6 +214,7 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   }
   if (surface.key_stone && shell.stage_rings == 0)
     add_key_stone(grid, first_member, options.density, &points, assembly);
+  refuse_inverted_parts(*assembly, first_part, shell.key + ".surface");
   if (stands && surface.last_bed_held)
     add_far_support(surface, cuts, options.support_width, options.density, assembly);
   if (surface.webs > 0) cross_webs(shell, start, options, assembly);

@@ -195,6 +195,12 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
     (plan.measured_at == Plan::MeasuredAt::corner ? section.middle : section.corner) =
         plan.measured_at == Plan::MeasuredAt::corner ? std::cos(pi / plan.sides)
                                                      : 1.0 / std::cos(pi / plan.sides);
+  if (drawing.beds == Beds::level &&
+      drawing.profile.front().derivative(0.0).y() * drawing.profile.back().derivative(1.0).y() < 0.0)
+    throw InputError(
+        "geometry.surface.beds = level: a stone between the level beds on both sides of a crown has no "
+        "height; "
+        "use beds: normal, or given with bed_angles_deg");
   SurfaceMap surface;
   surface.rows_per_ring = drawing.rows_per_ring;
   surface.num_rows = rings * drawing.rows_per_ring;

@@ -9,6 +9,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/model/loaded_faces.hpp"
+#include "generators/stereotomy/cut_blocks.hpp"
 #include "tests/generators/models.hpp"
 #include "tests/generators/stereotomy/cut_wall.hpp"
 
@@ -366,6 +367,23 @@ TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
             std::string::npos);
   EXPECT_NE(message_of(wall({prism({-1, 5, 5, -1}, {1.2, 1.2, 1.3, 1.3})})).find("shell floats"),
             std::string::npos);
+}
+
+// They were dropped as slivers of a cut that does not meet them, without a word.
+TEST(CutBodies, StonesTurnedInsideOutAreRefusedWithAndWithoutCuts) {
+  for (const std::vector<Cut>& cuts : {std::vector<Cut>{}, {plane({0, kLength - 0.5, 0}, {0, 1, 0})}}) {
+    std::vector<Storey> storeys = make_storeys(wall(cuts).geometry);
+    storeys[0].surface.at = [at = storeys[0].surface.at](double bed, double abscissa, double depth) -> Vec3 {
+      return at(bed, abscissa, bed > 3.5 ? -depth : depth);
+    };
+    try {
+      cut_blocks(storeys, {});
+      ADD_FAILURE() << "laid with " << cuts.size() << " cuts";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("geometry.surface: block "), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace

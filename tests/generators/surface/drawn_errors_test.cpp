@@ -50,6 +50,14 @@ TEST(DrawnErrors, NameTheKeyAndThePlace) {
   level.beds = VaultSurface::Beds::level;
   EXPECT_NE(error_of(level).find("give beds: normal, or leave out key_stone"), std::string::npos)
       << error_of(level);
+  for (const Profile& profile : {profile_of(Kind::semicircle), chain_of({3, 2, -1, -2}, {0, 2, 2.5, 1})}) {
+    VaultSurface barrel = vault_on(Plan::Kind::line, profile);
+    barrel.beds = VaultSurface::Beds::level;
+    for (const int rings : {8, 9})
+      EXPECT_NE(error_of(barrel, rings).find("surface.beds = level: a stone between the level beds on both"),
+                std::string::npos)
+          << error_of(barrel, rings);
+  }
   VaultSurface folds = vault_on(Plan::Kind::line, profile_of(Kind::semicircle, 1.0), 1.0);
   folds.line = VaultSurface::Line::extrados;
   EXPECT_NE(error_of(folds).find("has a radius of 0.5 m"), std::string::npos);
