@@ -71,6 +71,18 @@ struct BedLine {
   Vec3 along = (back - base) / (back - base).head<2>().norm();  // of length 1 seen from above
 };
 
+/// The line at a cut of the ring. Between two cuts of the shell, the edges of a round bed are chords.
+BedLine line_at(const SurfaceMap& surface, const std::vector<double>& shell_cuts, double cut) {
+  const auto line = [&](double at) { return BedLine{surface.intrados(0, at), surface.extrados(0, at)}; };
+  if (surface.flat_slices || std::ranges::binary_search(shell_cuts, cut)) return line(cut);
+  const double azimuth = cut - surface.extent * std::floor((cut - shell_cuts.front()) / surface.extent);
+  const auto above = std::upper_bound(shell_cuts.begin() + 1, shell_cuts.end() - 1, azimuth);
+  const double before = std::sin(azimuth - *(above - 1)), behind = std::sin(*above - azimuth);
+  const double share = before / (before + behind);  // of a chord between equal distances from the axis
+  const BedLine a = line(*(above - 1)), b = line(*above);
+  return {a.base + share * (b.base - a.base), a.back + share * (b.back - a.back)};
+}
+
 /// m, at most `width`, by which the ring extends inwards: half-way to where the lines of two neighbours meet.
 double inner_width(const std::vector<BedLine>& lines, double width) {
   for (size_t s = 0; s + 1 < lines.size(); ++s) {
@@ -82,11 +94,13 @@ double inner_width(const std::vector<BedLine>& lines, double width) {
   return width;
 }
 
-void add_ring(const SurfaceMap& surface, const std::vector<double>& cuts, double width, int num_blocks,
+void add_ring(const SurfaceMap& surface, const std::vector<double>& shell_cuts, double width, int num_blocks,
               double density, Assembly* assembly) {
+  const std::vector<double> cuts =
+      num_blocks == 1 ? shell_cuts : cuts_of_blocks(surface, shell_cuts, num_blocks);
   const int num_slices = static_cast<int>(cuts.size()) - 1;
   std::vector<BedLine> lines;
-  for (const double cut : cuts) lines.push_back({surface.intrados(0, cut), surface.extrados(0, cut)});
+  for (const double cut : cuts) lines.push_back(line_at(surface, shell_cuts, cut));
   const double inside = inner_width(lines, width);
   std::vector<std::pair<Vec3, Vec3>> tops;
   double floor = std::numeric_limits<double>::infinity();
@@ -158,8 +172,7 @@ void add_box_support(const std::array<Vec3, 4>& top, const Vec3& depth, double d
 void add_base_support(const SurfaceMap& surface, const std::vector<double>& cuts, double width,
                       int num_blocks, double density, Assembly* assembly) {
   if (surface.closed) {
-    add_ring(surface, num_blocks == 1 ? cuts : cuts_of_blocks(surface, cuts, num_blocks), width, num_blocks,
-             density, assembly);
+    add_ring(surface, cuts, width, num_blocks, density, assembly);
     return;
   }
   add_plate(surface, cuts, 0, 1, width, density, assembly);
