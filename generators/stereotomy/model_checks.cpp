@@ -217,8 +217,9 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
       if (tolerances.part_by_part) report->joint_faces.push_back({p, q, meeting->face_a, meeting->face_b});
     } else if (meeting && meeting->width > no_width) {
       narrow.push_back({a, b, meeting->width});
-    } else if (!meeting && tolerances.part_by_part) {
-      touching.emplace_back(a, b);
+    } else if (!meeting && tolerances.part_by_part &&
+               overlap_depth(shapes[p], shapes[q], -tolerances.joint_gap) >= -tolerances.joint_gap) {
+      touching.emplace_back(a, b);  // on every axis, not only on the first that was good enough
     }
   });
   if (!overlaps.empty()) refuse_overlaps(assembly, overlaps, tolerances, names);
