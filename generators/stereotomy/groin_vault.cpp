@@ -262,7 +262,8 @@ class Crossing {
     std::vector<std::pair<Piece, ConvexPiece::Face>> beds;
     for (const Piece& piece : pieces_)
       for (const ConvexPiece::Face& face : piece.shape.faces)
-        if (face.kind == FaceKind::bed && lies_in(face, down, down.dot(corner)))
+        if (face.kind == FaceKind::bed && lies_in(face, down, down.dot(corner)) &&
+            polygon_centroid(points_of(face)).x() * corner.x() > 0.0)  // level beds lie in one plane
           beds.emplace_back(piece, face);
     return beds;
   }
@@ -275,7 +276,7 @@ class Crossing {
         prisms.push_back(prism);
     };
     for (const ConvexPiece::Face& bed : level_beds_[side]) add(bed, -Vec3::UnitZ());
-    if (shell_.surface.springers == 0)
+    if (level_beds_[side].empty())
       for (const auto& [piece, face] : first_beds(side)) add(face, down_from(side));
     return prisms;
   }
@@ -284,6 +285,7 @@ class Crossing {
     const int bed = side == 0 ? 0 : shell_.surface.num_rows;
     const auto [low, high] =
         std::minmax({shell_.surface.intrados(bed, 0.0).z(), shell_.surface.extrados(bed, 0.0).z()});
+    if (high - low <= rounding()) return {};  // level as it is
     const Vec3 down = down_from(side);
     ConvexClip under({Plane{Vec3::UnitZ(), low}}, 1e-12 * size_, assembly_);
     ConvexClip beyond_groin(body_of(groin_cut(webs(), side)), 1e-12 * size_, assembly_);

@@ -125,6 +125,11 @@ void draw_web(const VaultSurface& vault, double rounding, Drawing* drawing) {
     if (plan.from_height) return p.y() >= *plan.from_height;
     return (half_side - p.x() - to_back * d.y() / d.norm()) * slope >= 0.5 * vault.thickness;
   };
+  const auto has_length = [&](const ProfilePiece& piece, double t) {  // on the intrados
+    const Vec2 d = piece.derivative(t);
+    return half_side - piece.at(t).x() + drawing->drawn_depth * d.y() / d.norm() > rounding;
+  };
+  const std::vector<ProfilePiece> long_part = part_above(drawing->profile, has_length);
   drawing->profile = part_above(std::move(drawing->profile), is_above);
   if (drawing->profile.empty())
     throw InputError(
@@ -134,6 +139,10 @@ void draw_web(const VaultSurface& vault, double rounding, Drawing* drawing) {
                           *plan.from_height, crown.y())
             : "geometry.surface.plan: the shell is so thick that no bed reaches the extrados; give "
               "from_height");
+  if (plan.from_height && !has_length(drawing->profile.front(), 0.0))
+    throw InputError(fmt::format(
+        "geometry.surface.plan.from_height = {}: must be above {:.3g} m, up to where a web has no length",
+        *plan.from_height, long_part.front().at(0.0).y()));
   drawing->plan.length = half_side * slope;
   drawing->mirrored = true;
   drawing->profile = with_mirror_image(std::move(drawing->profile));

@@ -197,7 +197,32 @@ TEST(GroinVault, FirstBedsLieAtTheHeightAsked) {
   EXPECT_NEAR(bearing, 8 * 0.3 * (3.0 - 1.05 * std::sqrt(5.0)), 1e-12);
 }
 
+/// On vertical stilts of 2 m, with beds from 1 m on.
+VaultSurface stilted(VaultSurface::Line line) {
+  VaultSurface v = groin_over(4, Kind::chain);
+  v.profile.points = {{3.0, 3.0, 0.0}, {0.0, 2.0, 5.0}, {0.0, 3.0}, {}};
+  v.plan.from_height = 1.0;
+  v.line = line;
+  return v;
+}
+
+// Both first beds of a web lie in one plane there. Each support was one block with that of the next corner,
+// and springers, which need no wedge, had none.
+TEST(GroinVault, LevelFirstBedsHaveTheirOwnSupports) {
+  for (const int springers : {0, 2}) {
+    VaultSurface v = stilted(VaultSurface::Line::middle);
+    v.plan.springers = springers;
+    const Assembly assembly = generate(case_of(v, RunningBond{13, 5, 2}));
+    EXPECT_TRUE(blocks_apart(assembly).empty()) << springers;
+    // Half of the thickness lies inside the side, and the groin halves what two webs share.
+    EXPECT_NEAR(assembly.blocks.front().volume, 0.15 * 0.15, 1e-12) << "m3, support_width is 1 m";
+  }
+}
+
 TEST(GroinVaultErrors, NameTheKey) {
+  EXPECT_NE(error_of(case_of(stilted(VaultSurface::Line::intrados), RunningBond{13, 5, 2}))
+                .find("from_height = 1: must be above 2 m, up to where a web has no length"),
+            std::string::npos);
   VaultSurface v = groin_over(4);
   v.plan.from_height = 3.1;
   EXPECT_NE(error_of(case_of(v, RunningBond{13, 5, 2})).find("from_height = 3.1: must be below the crown"),
