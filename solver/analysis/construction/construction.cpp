@@ -123,14 +123,14 @@ void Construction::harden(const Model& before, const Model& after) {
   }
 }
 
-/// The free blocks laid since the last equilibrium, if others were part of it.
-std::optional<std::vector<int>> Construction::new_blocks() const {
+/// With the free blocks laid since, if others were part of it.
+std::optional<NearbyStart> Construction::last_equilibrium() const {
   if (!site_->scene.analysis.staged.carry) return std::nullopt;
   std::vector<int> blocks;
   for (const int block : state_.fresh)
     if (const int i = problem_.model.free_index[block]; i != ContactProblem::kFixed) blocks.push_back(i);
   if (static_cast<int>(blocks.size()) == problem_.model.num_free()) return std::nullopt;
-  return blocks;
+  return NearbyStart{std::move(blocks)};
 }
 
 /// None where these blocks are most of the structure: its own solve then takes hardly longer.
@@ -153,7 +153,7 @@ StaticSolution Construction::solve(const std::optional<double>& trial, Need need
   if (need == Need::verdict)
     if (std::optional<StaticSolution> motion = falling_part(trial, options)) return std::move(*motion);
   problem_ = stage_problem(*site_, state_, trial, FreeBlocks::all);
-  options.new_blocks = new_blocks();
+  options.nearby = last_equilibrium();
   int solves = 0;
   return solve_breaking(problem_.model, problem_.rest, problem_.contacts, options, &problem_.memories,
                         &solves);

@@ -52,7 +52,7 @@ class Construction {
   StaticSolution solve(const std::optional<double>& trial, Need need);
   std::optional<StaticSolution> falling_part(const std::optional<double>& trial,
                                              const StaticOptions& options);
-  std::optional<std::vector<int>> new_blocks() const;
+  std::optional<NearbyStart> last_equilibrium() const;
   void harden(const Model& before, const Model& after);
   void place_beside_neighbours(const std::vector<int>& blocks);
   void move_supports();

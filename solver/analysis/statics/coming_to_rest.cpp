@@ -109,11 +109,14 @@ ComingToRest::ComingToRest(const Model& model, const State& start, const Contact
                            const ContactMemories& memories, const StaticOptions& options, Start from)
     : ProximalPoint(model, start, contacts, memories, options, pace_from(from, options.tolerance)) {}
 
-bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
+bool ComingToRest::start_near(const NearbyStart& start) {
   const ContactProblem& problem = step_.problem;
   if (first_rigid_contact(problem)) return false;
-  x_.v = VecX::Zero(problem.v_star.size());
-  for (const int block : new_blocks) {
+  if (start.displacement.size() > 0)
+    x_.v = start.displacement / trial_.h;
+  else
+    x_.v = VecX::Zero(problem.v_star.size());
+  for (const int block : start.new_blocks) {
     Mat6 H = problem.M[block];
     Eigen::Matrix<double, 6, 1> impulse = H * problem.v_star.segment<6>(6 * block);
     for (int i = 0; i < problem.num_contacts(); ++i) {
@@ -125,7 +128,7 @@ bool ComingToRest::start_from_rest(const std::vector<int>& new_blocks) {
     }
     x_.v.segment<6>(6 * block) = H.llt().solve(impulse);
   }
-  settle_around(problem, new_blocks, solve_options(), &x_.v);
+  if (!start.new_blocks.empty()) settle_around(problem, start.new_blocks, solve_options(), &x_.v);
   return true;
 }
 

@@ -24,9 +24,9 @@ class ComingToRest : public ProximalPoint {
     x_ = other.step_solution;
   }
 
-  /// Starts from rest, but for these free blocks, which stick to their neighbours. Of a large structure the
+  /// Starts from the displacement expected. New blocks stick to their neighbours, and of a large structure the
   /// blocks around them move, too, as if the others were fixed. False if a contact is rigid.
-  bool start_from_rest(const std::vector<int>& new_blocks);
+  bool start_near(const NearbyStart& start);
 
  private:
   void iterate() override;

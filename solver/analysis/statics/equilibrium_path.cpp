@@ -73,6 +73,8 @@ StaticSolution solve_breaking(const Model& model, const State& start, const Cont
     solution = solve_static(model, start, contacts, *memories, found);
     found.time_advance = solution.time_advance;
     iterations += solution.iterations;
+    if (found.nearby && solution.outcome == StaticOutcome::equilibrium)
+      found.nearby = NearbyStart{.displacement = solution.h * solution.step_solution.v};
     again = model.joints.has_strength() &&
             (solution.outcome == StaticOutcome::equilibrium
                  ? refine_step(model, start, contacts, solution.step, solution.step_solution,
@@ -159,14 +161,24 @@ constexpr double kLongStep = 0.01;
 
 }  // namespace
 
+/// Blocks move on as in the last step.
+NearbyStart EquilibriumPath::next_start(double step) const {
+  if (last_step_ == 0.0) return {};
+  return {.displacement = step / last_step_ * last_displacement_};
+}
+
 StaticSolution EquilibriumPath::advance_from(double guess) {
   const LoadedState last = loaded_;
+  const double length = options_.control ? options_.control->displacement : guess - last.state.time;
   const auto step = [&] {
     dissipated_ = 0.0;
+    options_.nearby.reset();
+    if (last_displacement_.size() > 0) options_.nearby = next_start(length);
     return solve_from(last, guess - last.state.time);
   };
   solves_ = 0;
   StaticSolution solution = step();
+  const VecX displacement = solution.h * solution.step_solution.v;
   const bool at_end = geometry_ == PathGeometry::end;
   const bool far =
       !options_.control && displacement_of(solution) > kLongStep * smallest_block_size(*model_.assembly);
@@ -174,7 +186,12 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
     solution = correct(std::move(solution));
     if (!at_end && solution.outcome != StaticOutcome::equilibrium && !solution.proven) solution = step();
   }
-  if (solution.outcome != StaticOutcome::equilibrium) loaded_ = last;
+  if (solution.outcome == StaticOutcome::equilibrium) {
+    last_displacement_ = displacement;
+    last_step_ = length;
+  } else {
+    loaded_ = last;
+  }
   return solution;
 }
 
@@ -191,6 +208,7 @@ StaticSolution EquilibriumPath::correct(StaticSolution solution) {
       break;
     }
     const int iterations = solution.iterations;
+    options_.nearby = NearbyStart{};
     solution = solve_from(LoadedState(loaded_), 0.0);
     solution.iterations += iterations;
     if (solution.outcome == StaticOutcome::equilibrium) continue;
@@ -204,7 +222,9 @@ std::string EquilibriumPath::save() const {
   LoadedState loaded = loaded_;
   DetectionMemory detection = detector_.memory();
   ByteWriter archive;
-  archive(loaded.state, loaded.memories, loaded.h, detection);
+  VecX displacement = last_displacement_;
+  double step = last_step_;
+  archive(loaded.state, loaded.memories, loaded.h, displacement, step, detection);
   return archive.bytes();
 }
 
@@ -212,11 +232,15 @@ void EquilibriumPath::restore(const std::string& bytes) {
   LoadedState loaded;
   DetectionMemory detection;
   ByteReader archive(bytes);
-  archive(loaded.state, loaded.memories, loaded.h, detection);
+  VecX displacement;
+  double step = 0.0;
+  archive(loaded.state, loaded.memories, loaded.h, displacement, step, detection);
   if (!archive.at_end() || loaded.state.poses.size() != loaded_.state.poses.size() ||
       loaded.state.v.size() != loaded_.state.v.size())
     throw std::runtime_error("belongs to another scene");
   loaded_ = std::move(loaded);
+  last_displacement_ = std::move(displacement);
+  last_step_ = step;
   detector_.restore(std::move(detection));
 }
 

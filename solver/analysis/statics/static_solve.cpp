@@ -137,19 +137,20 @@ StaticSolution solve_from_start(const Model& model, const State& start, const Co
   return ComingToRest(model, start, contacts, memories, options).run();
 }
 
-/// Near the start, of which only some blocks are new. Unconverged if no equilibrium is found quickly.
+/// Near the start, an equilibrium but for what `options.nearby` names. Unconverged if none is found quickly.
 StaticSolution solve_nearby(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
-  // Stages of domes take 2 to 5, of walls whose fresh beds slide up to 20: several times less than from afar.
+  // Stages of domes take 2 to 5, of walls whose fresh beds slide up to 20, steps of paths 4 to 9: several times
+  // less than from afar.
   constexpr int kIterations = 25;
-  if (!options.new_blocks || options.solve.law.is_associated() ||
-      options.solve.method != ContactMethod::newton)
-    return {};
+  if (!options.nearby || options.solve.method != ContactMethod::newton) return {};
+  // Under the associated law a start from rest is no better than one from afar.
+  if (options.solve.law.is_associated() && options.nearby->displacement.size() == 0) return {};
   StaticOptions few = options;
   few.solve.max_iterations = std::min(options.solve.max_iterations.value_or(kIterations), kIterations);
   few.solve.damp_directions = true;
   ComingToRest nearby(model, start, contacts, memories, few, ComingToRest::Start::nearby);
-  return nearby.start_from_rest(*options.new_blocks) ? nearby.run() : StaticSolution{};
+  return nearby.start_near(*options.nearby) ? nearby.run() : StaticSolution{};
 }
 
 /// From a start that need not be near an equilibrium.

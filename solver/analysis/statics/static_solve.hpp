@@ -17,6 +17,12 @@
 
 namespace cupola {
 
+/// An equilibrium near which the next one is sought first, before the methods that need none.
+struct NearbyStart {
+  std::vector<int> new_blocks = {};  ///< free blocks that were not part of it
+  VecX displacement = {};            ///< expected of the blocks, m, rad (6 nb); empty: unknown
+};
+
 struct StaticOptions {
   double tolerance = 1e-9;  ///< largest equilibrium residual accepted; no unit
   /// Method, friction law and iteration limit of each contact solve. Tolerance and reference speed follow
@@ -30,9 +36,8 @@ struct StaticOptions {
   /// Non-associated laws: only the path from the start counts, not an equilibrium found from the associated
   /// solution, whose dilatancy may have jammed joints. Motions must reach 5 % of the smallest block.
   bool follow_from_start = false;
-  /// If set, the start is an equilibrium but for these free blocks, which are new. Non-associated laws,
-  /// compliant joints, Newton's method: the equilibrium is sought near the start first.
-  std::optional<std::vector<int>> new_blocks = {};
+  /// If set, the start is an equilibrium but for what it names. Compliant joints and Newton's method only.
+  std::optional<NearbyStart> nearby = {};
   std::function<void(const std::string&)> log = [](const std::string&) {};
 };
 
@@ -116,9 +121,10 @@ struct StaticSolution {
 /// proximal-point iteration above is tried from the associated solution; its equilibrium counts, nothing
 /// else of it.
 ///
-/// Where the start was an equilibrium until blocks were added (StaticOptions::new_blocks), the path is short:
-/// the iterations start from rest, with new blocks where they would stick to their neighbours. An equilibrium
-/// that they reach within a few of Newton's counts; everything else is left to the methods above.
+/// Where the start was an equilibrium until loads changed or blocks were added (StaticOptions::nearby), the
+/// way is short: the iterations start from the displacement expected, or from rest, with new blocks where they
+/// would stick to their neighbours. An equilibrium that they reach within a few of Newton's counts; everything
+/// else is left to the methods above.
 ///
 /// Under a control of the length (length_control.hpp) each iteration also finds the time at which the control
 /// displacement is the one asked for. Under the associated law that displacement is the work-conjugate of the
