@@ -148,7 +148,7 @@ StaticSolution solve_nearby(const Model& model, const State& start, const Contac
   if (options.solve.law.is_associated() && options.nearby->displacement.size() == 0) return {};
   StaticOptions few = options;
   few.solve.max_iterations = std::min(options.solve.max_iterations.value_or(kIterations), kIterations);
-  few.solve.damp_directions = true;
+  few.solve.near_solution = true;
   ComingToRest nearby(model, start, contacts, memories, few, ComingToRest::Start::nearby);
   return nearby.start_near(*options.nearby) ? nearby.run() : StaticSolution{};
 }

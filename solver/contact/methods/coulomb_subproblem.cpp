@@ -155,7 +155,7 @@ bool solve_subproblem(const CoulombSubproblem& sub, const SubproblemAccuracy& ac
       ++summary->line_search_evaluations;
     } while (!(trial.F.norm() < (1.0 - kDecrease * t) * F.norm()) && t > kShortest);
     if (!(trial.F.norm() < F.norm())) {
-      if (!options.damp_directions || !damping.include_failure(F.norm(), d.norm())) return false;
+      if (!options.near_solution || !damping.include_failure(F.norm(), d.norm())) return false;
       continue;
     }
     damping.include_success(t, t * d.norm());

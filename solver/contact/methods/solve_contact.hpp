@@ -21,6 +21,9 @@ class ContactSolver {
                      ContactSolution* solution);
 
  private:
+  SolveSummary solve_from_nearer(const ContactProblem& problem, const ContactSolverOptions& options,
+                                 ContactSolution* solution);
+
   NewtonSolver newton_;
   CoulombNewton coulomb_;
 };

@@ -23,9 +23,10 @@ struct SolveOptions {
   /// gradients, and renew it when they need more than 25 iterations. Faster while few contacts change state,
   /// at the same accuracy.
   bool lag_factor = false;
-  /// Newton under Coulomb's law only: repeats directions that do not reduce the residual with a damped matrix.
-  /// Worth it where a failed solve is dear; along a path a shorter step mostly is cheaper.
-  bool damp_directions = false;
+  /// Newton under Coulomb's law only: the guess is near a solution. Directions that do not reduce the residual
+  /// are repeated with a damped matrix, and where Newton fails some of De Saxce's iterations bring the guess
+  /// nearer. Worth it where a failed solve is dear; along a path a shorter step mostly is cheaper.
+  bool near_solution = false;
 
   /// Throws std::invalid_argument with name, value and rule.
   void validate() const;
