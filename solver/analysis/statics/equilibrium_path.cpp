@@ -101,11 +101,13 @@ StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
   return advance_from(loaded_.state.time);
 }
 
-/// What a solve that balances the loads but for its residual leaves undetermined of the displacement, m.
+/// What a solve that balances the loads but for its residual leaves undetermined of the displacement, m. A
+/// start nearby has longer steps, in which joints limit the displacement, not the inertia of a step.
 double EquilibriumPath::displacement_by_imbalance(const StaticSolution& solution) const {
   constexpr double kMargin = 3.0;  // the residual is over the mean weight, in forces and in moments
-  return kMargin * solution.balance.residual * reference_acceleration(model_, start_) * solution.h *
-         solution.h;
+  const double acceleration = reference_acceleration(model_, start_);
+  const double h = std::min(solution.h, first_static_step(model_, start_, contacts_, acceleration, options_));
+  return kMargin * solution.balance.residual * acceleration * h * h;
 }
 
 bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
