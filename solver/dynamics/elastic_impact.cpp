@@ -26,7 +26,7 @@ double elastic_impact(const StepStart& start, const StepProblem& step, const Con
   double longest = 0.0;
   for (int i = 0; i < step.num_contacts; ++i) {
     const Vec3 imposed = step.support_velocity_of(i);
-    const bool closes = solution.gamma[3 * i] > 0.0 && problem.b[3 * i] - imposed[0] > 0.0;
+    const bool closes = solution.gamma[3 * i] > 0.0 && start.elastic_gap[i] >= 0.0;
     if (!closes || problem.E[3 * i] == 0.0) continue;
     const double c = problem.E[3 * i] * step.impulse_time[i] * options.damped_reach();
     const double time = std::sqrt(c / normal_mobility(problem, i));

@@ -81,7 +81,7 @@ TEST(StaticStart, KeepsJointsThatHaveSlidAtRest) {
                                                  {.center = {0, 0, 0}, .size = {2.2, 0.5, 0.5}}});
   Case scene = make_case(0.5, 1e-8, 0.01);
   scene.analysis.tolerance = 1e-10;
-  scene.analysis.duration = 0.1;
+  scene.analysis.duration = 0.2;
   scene.analysis.start = Analysis::Start::static_;
   const RunResult moved = run(scene, assembly);
   EXPECT_EQ(moved.summary.status, Status::stable) << moved.summary.message;
@@ -241,7 +241,7 @@ TEST(AdaptiveStep, SeesShortLoads) {
 TEST(StaticStart, FollowsSupportsThatHaveMoved) {
   Case scene = make_case(0.5, 1e-8, 0.01);
   scene.analysis.start = Analysis::Start::static_;
-  scene.analysis.duration = 0.1;
+  scene.analysis.duration = 0.2;
   scene.supports.moves = {{.region = {}, .displacement = {0.3, 0, -0.05}, .time = {}}};
   const RunResult result = run(scene, testing::box_on_floor({1, 1, 1}));
   EXPECT_EQ(result.summary.status, Status::stable) << result.summary.message;
@@ -333,6 +333,25 @@ TEST(Impact, IsElasticOnlyIfStepsResolveItUndamped) {
     if (fall.bounces) {
       EXPECT_NE(s.warnings[0].find("`analysis.damping: 3.2e-03`"), std::string::npos) << s.warnings[0];
     }
+  }
+}
+
+// Faces that meet in the first half of a step, at whose middle the method finds contacts, or in the second.
+TEST(Impact, IsElasticWhereverInAStepOfGeneralizedAlphaItIs) {
+  constexpr double kStep = 2e-4, kGap = 0.1;
+  const double way = kStep * std::sqrt(2.0 * kG * kGap);  // m, of the step of the impact
+  for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+    SCOPED_TRACE(part);
+    Case scene = make_case(0.4, 1e-8, kStep);
+    scene.analysis.duration = 0.2;
+    scene.analysis.tolerance = 1e-9;
+    scene.analysis.integrator = TimeIntegrator::generalized_alpha;
+    const Summary s =
+        run(scene, testing::make_boxes({{.center = {0, 0, -0.5}, .size = {3, 3, 1}, .fixed = true},
+                                        {.center = {0, 0, 0.5 + kGap + part * way}}}))
+            .summary;
+    ASSERT_EQ(s.warnings.size(), 1U);
+    EXPECT_NE(s.warnings[0].find("bounced"), std::string::npos) << s.warnings[0];
   }
 }
 
