@@ -72,6 +72,7 @@ DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const Analys
 
 bool DynamicRun::start_static(Summary* summary) {
   const StaticStart start = start_from_equilibrium(scene_, sinks_.log, &simulation_);
+  progress_.starts_unstable = start.solution.certificate.balance == Balance::unstable;
   if (start.solution.outcome == StaticOutcome::equilibrium) return true;
   const Model& model = simulation_.model();
   const Frame frame =
@@ -244,7 +245,9 @@ Summary DynamicRun::summarize(Stop stop, double seconds) const {
   judge_motion(analysis_, progress_, report_.solve, &summary);
   if (scene_.supports.base_motion && summary.status != Status::unconverged)
     summary.message += "; displacements and speeds are relative to the ground";
-  summary.warnings = elastic_impacts(analysis_, progress_);
+  if (!scene_.supports.moves.empty() && summary.status != Status::unconverged)
+    summary.message += "; displacements are beyond the moves of supports that blocks follow";
+  summary.warnings = motion_warnings(analysis_, progress_);
   summary.message += stop_note(stop, analysis_);
   return summary;
 }

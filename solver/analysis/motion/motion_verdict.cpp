@@ -34,10 +34,28 @@ std::string coarse_text(const Analysis& analysis, const RunProgress& progress) {
       analysis.adaptive->smallest, progress.worst_time_error);
 }
 
+/// A warning if impacts were elastic.
+std::string elastic_text(const Analysis& analysis, const RunProgress& progress) {
+  return fmt::format(
+      "blocks met and bounced in {}: their joints, elastic {}, take {:.1e} s to stop them, "
+      "longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with rigid "
+      "joints "
+      "(compliance 0){}",
+      counted(progress.elastic_steps, "step"),
+      analysis.damping > 0.0 ? fmt::format("with a damping of {:g} s", analysis.damping) : "without damping",
+      progress.elastic_impact, 2.0 * progress.elastic_impact,
+      analysis.adaptive ? "" : " or a much longer `analysis.time_step`");
+}
+
 /// Why a motion is not at rest at its end; "" if it is. `speed`: m/s, largest at the end.
 std::string unrest_text(const Analysis::Thresholds& thresholds, const RestWindow& rest, double speed) {
   if (speed > thresholds.speed)
     return fmt::format("largest speed {:.3g} m/s > threshold {:.3g} m/s at the end", speed, thresholds.speed);
+  if (!rest.is_covered(thresholds))
+    return fmt::format(
+        "the motion is shorter than `analysis.thresholds.window`, {:.3g} s, over which rest is judged; speed "
+        "{:.3g} m/s at the end",
+        thresholds.window, speed);
   if (!rest.is_slow(thresholds))
     return fmt::format(
         "largest speed {:.3g} m/s > threshold {:.3g} m/s at {:.4g} s, within the last {:.3g} s",
@@ -67,17 +85,15 @@ std::string displacement_text(const Summary& summary, double threshold, bool res
 
 }  // namespace
 
-std::vector<std::string> elastic_impacts(const Analysis& analysis, const RunProgress& progress) {
-  if (progress.elastic_steps == 0) return {};
-  return {fmt::format(
-      "blocks met and bounced in {}: their joints, elastic {}, take {:.1e} s to stop them, "
-      "longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with rigid "
-      "joints "
-      "(compliance 0){}",
-      counted(progress.elastic_steps, "step"),
-      analysis.damping > 0.0 ? fmt::format("with a damping of {:g} s", analysis.damping) : "without damping",
-      progress.elastic_impact, 2.0 * progress.elastic_impact,
-      analysis.adaptive ? "" : " or a much longer `analysis.time_step`")};
+std::vector<std::string> motion_warnings(const Analysis& analysis, const RunProgress& progress) {
+  std::vector<std::string> warnings;
+  if (progress.starts_unstable)
+    warnings.emplace_back(
+        "unstable balance at the start, as on an edge: a small disturbance would end it, so that rest "
+        "without "
+        "one is no evidence that the structure stands");
+  if (progress.elastic_steps > 0) warnings.push_back(elastic_text(analysis, progress));
+  return warnings;
 }
 
 void judge_motion(const Analysis& analysis, const RunProgress& progress, const SolveSummary& last,

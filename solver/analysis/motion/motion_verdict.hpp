@@ -26,7 +26,8 @@ struct RunProgress {
   double farthest_time = 0.0;  // s
   double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
   int elastic_steps = 0;       // steps in which contacts begin to bounce, and their longest time of impact, s
-  double elastic_impact = 0.0;  // (elastic_impact.hpp)
+  double elastic_impact = 0.0;   // (elastic_impact.hpp)
+  bool starts_unstable = false;  // the static start is an unstable balance
 };
 
 template <class Archive>
@@ -43,11 +44,11 @@ template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
   archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.coarse_steps, x.worst_time_error,
           x.worst_error, x.measure, x.worst, x.energy, x.rest, x.farthest, x.farthest_time, x.calm_since,
-          x.elastic_steps, x.elastic_impact);
+          x.elastic_steps, x.elastic_impact, x.starts_unstable);
 }
 
-/// A warning if impacts were elastic.
-std::vector<std::string> elastic_impacts(const Analysis& analysis, const RunProgress& progress);
+/// Warnings if impacts were elastic, and if the motion started from an unstable balance.
+std::vector<std::string> motion_warnings(const Analysis& analysis, const RunProgress& progress);
 
 /// Sets status, accuracy, message and the largest displacement from that and the speed at the end. `last`: the
 /// solve of the last step.

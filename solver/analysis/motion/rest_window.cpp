@@ -24,6 +24,11 @@ void RestWindow::include(const CollisionModel& shapes, const Model& model, const
     samples_.push_back({time_, state.poses});
 }
 
+bool RestWindow::is_covered(const Analysis::Thresholds& thresholds) const {
+  constexpr double kRounding = 1e-9;  // of the sum of the steps
+  return time_ >= (1.0 - kRounding) * thresholds.window;
+}
+
 bool RestWindow::is_slow(const Analysis::Thresholds& thresholds) const {
   return last_fast_time_ < 0.0 || (last_fast_time_ < time_ && last_fast_time_ <= time_ - thresholds.window);
 }

@@ -16,6 +16,8 @@ class RestWindow {
   void include(const CollisionModel& shapes, const Model& model, const State& state, double speed,
                const Analysis::Thresholds& thresholds);
 
+  /// The run has lasted as long as the window: a shorter one shows no rest.
+  bool is_covered(const Analysis::Thresholds& thresholds) const;
   /// No block has been faster than thresholds.speed in the window, or since the start of a shorter run.
   bool is_slow(const Analysis::Thresholds& thresholds) const;
   /// Mean velocity of the farthest_point() over the window, m/s; 0 in a shorter run.

@@ -45,6 +45,19 @@ Summary pushed_late(const TimeFunction& time) {
   return run_dynamic(scene, testing::box_on_floor({1.0, 1.0, 1.0}), {}).value();
 }
 
+// A window that is as long as the run is covered, although the run is a sum of rounded steps.
+TEST(MotionEnding, ShorterThanTheWindowOfRestItHasNotComeToRest) {
+  Case scene = testing::make_case(0.2, 1e-8, 0.01);
+  scene.analysis.start = Analysis::Start::static_;
+  scene.analysis.duration = 0.1;
+  for (const double window : {0.2, 0.1}) {
+    scene.analysis.thresholds.window = window;
+    const Summary summary = run_dynamic(scene, testing::box_on_floor({1.0, 1.0, 0.5}), {}).value();
+    EXPECT_EQ(summary.status, window == 0.1 ? Status::stable : Status::moving) << summary.message;
+    EXPECT_EQ(summary.message.find("the motion is shorter than") == 0, window == 0.2) << summary.message;
+  }
+}
+
 TEST(MotionEnding, IsNotSettledBeforeLoadsAndSupportsHaveTheirLastValues) {
   const TableInTime push{"", {0.5, 0.51}, {0.0, 1.0}}, passes{"", {0.5, 0.51, 0.52}, {0.0, 0.1, 0.0}};
   const Summary slides = pushed_late(push);
