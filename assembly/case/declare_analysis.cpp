@@ -14,11 +14,13 @@ void declare_thresholds(Section& s, Analysis::Thresholds& thresholds) {
       "a run with a point of a block faster relative to the ground within its last `window` has the status "
       "moving");
   s.number("window", thresholds.window, {.unit = "s", .min = 0},
-           "a motion is at rest if all points are slower than `speed` for this long at its end, and their "
-           "mean velocity over this time is below a tenth of it");
-  s.optional_number("displacement", thresholds.displacement, {.unit = "m", .above = 0},
-                    "none: half the mean size (cube root of the volume) of the free blocks, at most 0.5 m",
-                    "a run with a block displaced further relative to the ground has the status collapsed");
+           "a motion is at rest if all points are slower than `speed` for this long at its end, not less "
+           "than this long after its start, and their mean velocity over this time is below a tenth of it");
+  s.optional_number(
+      "displacement", thresholds.displacement, {.unit = "m", .above = 0},
+      "none: half the mean size (cube root of the volume) of the free blocks, at most 0.5 m",
+      "a run with a point of a block displaced further, relative to the ground and without what the "
+      "block follows of the move of a support, has the status collapsed");
 }
 
 void declare_adaptive(Section& s, AdaptiveStep& adaptive) {

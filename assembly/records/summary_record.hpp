@@ -149,8 +149,10 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
       s.friction_cone_violation);
   visit("max_penetration_m", "m", "largest overlap at a contact", s.max_penetration_m);
   visit("max_displacement_m", "m",
-        "of a block relative to the ground, in motions the largest at any step of a free one; not in limit "
-        "analyses, nor in statics without an equilibrium",
+        "of a block relative to the ground; in motions of the farthest point of a free one at any step, "
+        "without "
+        "what it follows of the move of a support; not in limit analyses, nor in statics without an "
+        "equilibrium",
         s.max_displacement_m);
   visit("max_displacement_time_s", "s", "motions: when a block was displaced by that",
         s.max_displacement_time_s);

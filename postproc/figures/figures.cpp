@@ -117,7 +117,7 @@ Figure history_figure(const Evaluation& e, const std::vector<HistoryRow>& histor
   f.name = "history";
   f.title = "Motion over time";
   f.caption =
-      "Largest displacement of a centroid and speed of a point of the blocks, relative to the ground, after "
+      "Largest displacement and speed of a point of the blocks, relative to the ground, after "
       "each step, and the reaction of the supports over the weight of the free blocks.";
   f.width = 1000;
   f.height = 700;

@@ -4,20 +4,31 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/model/block_motion.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/worst_joints.hpp"
 
 namespace cupola {
 namespace {
 
-/// Blocks that move farther than `least`, m.
-int count_moving(const Evaluation& e, double least) {
-  int count = 0;
+/// How far each free block is from its place, m, 0 of fixed ones: in a motion its farthest point, as in the
+/// summary, of a mechanism its centroid.
+std::vector<double> distances_of(const Evaluation& e) {
+  const BlockTable& blocks = e.last.frame.blocks;
+  if (e.last.frame.role == FrameRole::step)
+    return distances_moved(e.assembly, blocks.displacement, blocks.quaternion_wxyz);
+  std::vector<double> distances;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    count += !e.assembly.blocks[b].fixed && e.last.frame.blocks.displacement[b].norm() > least;
-  return count;
+    distances.push_back(e.assembly.blocks[b].fixed ? 0.0 : blocks.displacement[b].norm());
+  return distances;
+}
+
+/// Blocks that move farther than `least`, m, >= 0.
+int count_moving(const Evaluation& e, double least) {
+  return static_cast<int>(std::ranges::count_if(distances_of(e), [least](double d) { return d > least; }));
 }
 
 /// Bodies that move: all groups but those of the supports and of blocks that are not laid.
@@ -36,12 +47,9 @@ struct Farthest {
 };
 
 Farthest farthest_block(const Evaluation& e) {
-  Farthest farthest;
-  for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (const double d = e.last.frame.blocks.displacement[b].norm();
-        d > farthest.displacement && !e.assembly.blocks[b].fixed)
-      farthest = {b, d};
-  return farthest;
+  const std::vector<double> distances = distances_of(e);
+  const auto farthest = std::ranges::max_element(distances);
+  return {static_cast<size_t>(farthest - distances.begin()), *farthest};
 }
 
 std::string block_text(const Evaluation& e, size_t index) {
@@ -51,9 +59,17 @@ std::string block_text(const Evaluation& e, size_t index) {
                          : fmt::format("block {} in ring {}", index, block.ring);
 }
 
-/// Of displacements and speeds.
+/// Of speeds.
 const char* relative_to_ground(const Evaluation& e) {
   return e.scene.supports.base_motion ? ", relative to the ground" : "";
+}
+
+/// Of displacements: that of the ground, and what blocks follow of the moves of supports, do not count.
+std::string counted_from(const Evaluation& e, const std::string& before) {
+  std::vector<std::string> from;
+  if (e.scene.supports.base_motion) from.push_back("relative to the ground");
+  if (!e.scene.supports.moves.empty()) from.push_back("beyond the moves of supports that it follows");
+  return from.empty() ? "" : fmt::format("{}{}", before, fmt::join(from, " and "));
 }
 
 /// "; 50 mm at the end", if that is less than the largest.
@@ -66,7 +82,7 @@ void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& his
   const double threshold = e.scene.analysis.thresholds.collapse();
   const LargestDisplacement largest = largest_displacement(e);
   out->push_back({"Largest displacement", length_text(largest.distance),
-                  fmt::format("at {:.4g} s{}{}", largest.time, relative_to_ground(e), end_text(largest))});
+                  fmt::format("at {:.4g} s{}{}", largest.time, counted_from(e, ", "), end_text(largest))});
   const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
     return row.max_displacement > threshold;
   });
@@ -104,11 +120,11 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
   const size_t bodies = count_bodies(e);
   if (const LargestDisplacement largest = largest_displacement(e); largest.at_end)
     out->push_back(fmt::format("The largest displacement of the motion is {:.3g} m{}, at {:.4g} s.",
-                               largest.distance, relative_to_ground(e), largest.time));
+                               largest.distance, counted_from(e, ", "), largest.time));
   out->push_back(fmt::format(
       "At the end, {:.4g} s, the largest displacement is {:.3g} m{}, of {}; {} of {} are farther than {:g} m "
       "from their places. The blocks move as {}.",
-      e.last.frame.time, farthest.displacement, relative_to_ground(e), block_text(e, farthest.block),
+      e.last.frame.time, farthest.displacement, counted_from(e, ", "), block_text(e, farthest.block),
       count_moving(e, threshold), counted(e.summary.free_blocks, "free block"), threshold,
       counted(bodies, "body", "bodies")));
   if (e.lost_joints.value_or(0) > 0)
@@ -132,7 +148,7 @@ LargestDisplacement largest_displacement(const Evaluation& e) {
 std::string largest_displacement_text(const Evaluation& e) {
   const LargestDisplacement largest = largest_displacement(e);
   return fmt::format("a block moves by {}{}{}", largest.at_end ? "up to " : "", length_text(largest.distance),
-                     e.scene.supports.base_motion ? " relative to the ground" : "") +
+                     counted_from(e, " ")) +
          (largest.at_end ? fmt::format(" (at {:.4g} s{})", largest.time, end_text(largest)) : "");
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/files/csv_columns.hpp"
+#include "assembly/model/block_motion.hpp"
 #include "solver/analysis/motion/farthest_point.hpp"
 
 namespace cupola {
@@ -71,10 +72,11 @@ Snapshot take_snapshot(const Simulation& simulation, const State& seen) {
   snapshot.momentum = simulation.linear_momentum();
   const Model& model = simulation.model();
   snapshot.speed = fastest_point(simulation.shapes(), model, seen);
-  for (const int block : model.free_blocks) {
-    const Vec3 moved = seen.poses[block].p_WB - model.assembly->blocks[block].centroid;
-    snapshot.displacement = std::max(snapshot.displacement, moved.norm());
-  }
+  std::vector<Eigen::Vector4d> turned;
+  for (const Pose& pose : seen.poses)
+    turned.emplace_back(pose.q_WB.w(), pose.q_WB.x(), pose.q_WB.y(), pose.q_WB.z());
+  snapshot.displacement =
+      std::ranges::max(distances_moved(*model.assembly, displacements(*model.assembly, seen), turned));
   return snapshot;
 }
 

@@ -12,7 +12,7 @@ namespace cupola {
 struct Snapshot {
   Vec3 momentum = Vec3::Zero();  ///< N s
   double speed = 0.0;            ///< m/s, of the fastest point of a free block
-  double displacement = 0.0;     ///< m, largest distance of a free block from its position as built
+  double displacement = 0.0;     ///< m, largest of distances_moved()
 };
 /// `seen`: the state of the simulation, seen from the ground.
 Snapshot take_snapshot(const Simulation& simulation, const State& seen);

@@ -58,7 +58,7 @@ TEST(ReturnedMotion, RestSaysHowFarItWent) {
       << reason;
 }
 
-// Histories have the speed of the fastest point and the displacement of the farthest centroid.
+// Histories have the speed of the fastest point and the displacement of the farthest one.
 TEST(ReturnedMotion, SaysWhatMoves) {
   const Evaluation e = returned(Status::collapsed, 0.1);
   const std::vector<HistoryRow> history{{.time = 1.0, .max_speed = 0.2},
@@ -67,9 +67,8 @@ TEST(ReturnedMotion, SaysWhatMoves) {
   EXPECT_TRUE(std::ranges::any_of(numbers, [](const KeyNumber& number) {
     return number.name == "Fastest point" && number.value == "0.0171 m/s";
   }));
-  EXPECT_TRUE(
-      history_figure(e, history)
-          .caption.starts_with("Largest displacement of a centroid and speed of a point of the blocks"))
+  EXPECT_TRUE(history_figure(e, history)
+                  .caption.starts_with("Largest displacement and speed of a point of the blocks"))
       << history_figure(e, history).caption;
 }
 

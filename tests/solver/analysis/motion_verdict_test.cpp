@@ -91,6 +91,8 @@ TEST(MotionThatTurns, IsJudgedByTheFastestPointOfItsBlock) {
   scene.analysis.duration = 0.5;
   scene.analysis.start = Analysis::Start::rest;
   scene.loads.forces.push_back({BlockRef{1}, {}, Vec3::Zero(), {}, Vec3(0, 0, 1500)});
+  EXPECT_EQ(summary_of(scene).status, Status::collapsed) << "corners move by more than half a metre";
+  scene.analysis.thresholds.displacement = 2.0;
   Frame last;
   std::string row;
   AnalysisSinks sinks;
@@ -105,8 +107,40 @@ TEST(MotionThatTurns, IsJudgedByTheFastestPointOfItsBlock) {
   const double speed = radius * last.blocks.angular_velocity[1].z();
   // The block also settles and slides aside, by a millimetre.
   EXPECT_NEAR(summary.max_speed_m_per_s.value(), speed, 1e-3 * speed);
-  EXPECT_LT(summary.max_displacement_m.value(), 0.01 * radius * angle) << "of the centroid";
+  EXPECT_NEAR(summary.max_displacement_m.value(), 2.0 * radius * std::sin(0.5 * angle), 0.01 * radius)
+      << "of a corner";
   EXPECT_NE(row.find(fmt::format("{:.17g}", *summary.max_speed_m_per_s)), std::string::npos) << row;
+}
+
+// Ten times the threshold.
+TEST(MotionOfSupports, IsNoFallOfWhatFollowsIt) {
+  Case scene = testing::make_case(0.5, 1e-9, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 2.5;
+  scene.analysis.thresholds.displacement = 0.05;
+  SupportMove lift{.region = {}, .displacement = {0.2, 0, 0.5}, .time = {}};
+  lift.time = RampInTime{.from = 0.0, .to = 1.0, .start = 0.0, .duration = 2.0};
+  scene.supports.moves = {lift};
+  const Summary summary = summary_of(scene);
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  EXPECT_LT(summary.max_displacement_m.value(), 0.01) << "a step of the ramp at 0.27 m/s, by which it lags";
+}
+
+// A block of 1 x 2 m whose centroid is above an edge of its base.
+TEST(MotionFromRest, WarnsOfAnUnstableBalance) {
+  const double lean = std::atan(0.5);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(lean, Vec3::UnitY()));
+  const Assembly assembly =
+      testing::make_boxes({{.center = {0, 0, -0.5}, .size = {5, 5, 1}, .fixed = true},
+                           {.center = {0, 0, 0.5 * std::sqrt(5.0)}, .size = {1, 1, 2}, .rotation = turn}});
+  Case scene = testing::make_case(0.8, 1e-9, 0.01);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 0.2;
+  scene.analysis.start = Analysis::Start::static_;
+  const Summary summary = run_dynamic(scene, assembly, {}).value();
+  ASSERT_EQ(summary.warnings.size(), 1U);
+  EXPECT_EQ(summary.warnings[0].find("unstable balance at the start"), 0U) << summary.warnings[0];
+  EXPECT_TRUE(summary_of(scene).warnings.empty()) << "a cube on its face";
 }
 
 }  // namespace
