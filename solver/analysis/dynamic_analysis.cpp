@@ -100,6 +100,7 @@ std::string DynamicRun::checkpoint() const {
 
 void DynamicRun::step() {
   if (progress_.steps == 0) progress_.energy.start = simulation_.energy().total();
+  const std::vector<Pose> before = simulation_.state().poses;
   report_ = simulation_.advance(step_limit(scene_, times_, simulation_.state().time));
   CUPOLA_ASSERT(!report_.solve.usable() || simulation_.state().v.allFinite());
   seen_ = seen_from_ground(simulation_.model(), simulation_.state(), report_.h);
@@ -110,6 +111,12 @@ void DynamicRun::step() {
   progress_.rest.include(simulation_.shapes(), simulation_.model(), seen_, now_.speed, analysis_.thresholds);
   const double time = simulation_.state().time;
   include_accuracy(time);
+  if (const auto fast = fast_pair(simulation_.shapes(), before, simulation_.state().poses, report_.h,
+                                  simulation_.options().step.integrator.middle);
+      fast && progress_.fast_steps++ == 0) {
+    progress_.fast = *fast;
+    progress_.fast_time = time;
+  }
   if (now_.displacement > progress_.farthest) {
     progress_.farthest = now_.displacement;
     progress_.farthest_time = time;

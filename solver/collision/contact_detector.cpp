@@ -115,7 +115,7 @@ const ContactSet& ContactDetector::update(std::span<const Pose> poses, std::span
   now.travel.resize(poses.size());
   std::vector<char> moved(poses.size(), 0), changed(poses.size(), 0);
   for (std::size_t b = 0; b < poses.size(); ++b) {
-    // Detection does not guarantee to find the contacts of a block that moves by its own size in one step.
+    // Contacts sought from farther away would be on faces past which the block moves (see fast_blocks.hpp).
     const double bound = travel.empty() ? 0.0 : std::min(travel[b], model_.block_radius[b]);
     moved[b] = !same_pose(poses[b], now.poses[b]);
     changed[b] = moved[b] || bound != now.travel[b];

@@ -71,8 +71,8 @@ class ContactDetector {
   ContactDetector(const Assembly& assembly, const DetectionOptions& options);
 
   /// Contacts at the given poses (num_blocks). `travel` (m, num_blocks; empty: zero) bounds how far the
-  /// points of each block move until the next call. The margin of its contacts grows by that much, so that
-  /// fast blocks do not pass through a surface undetected. The reference stays valid until the next call.
+  /// points of each block move until the next call. The margin of its contacts grows by that much, up to its
+  /// radius: fast_pair() names faster blocks. The reference stays valid until the next call.
   const ContactSet& update(std::span<const Pose> poses, std::span<const double> travel = {});
 
   /// Sets the gap of contact i to `gaps[i]` (m, one per contact). Later gaps are measured relative to it.

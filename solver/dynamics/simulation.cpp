@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 
 #include "assembly/base/error.hpp"
+#include "solver/collision/fast_blocks.hpp"
 #include "solver/dynamics/elastic_impact.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/law_violation.hpp"
@@ -33,6 +34,23 @@ double next_step(const AdaptiveStep& adaptive, const Integrator& integrator, dou
   return std::clamp(std::clamp(proposed, 0.2 * h, 2.0 * h), adaptive.smallest, adaptive.largest);
 }
 
+/// s: h, or a shorter step in which contacts of fast blocks are found. The time error of a free fall may be
+/// 0, so that it does not bound the step.
+double detected_step(const Model& model, const CollisionModel& shapes, const State& state, double h,
+                     double middle) {
+  State end = state;
+  const VecX f = applied_forces(model, state, state.time + 0.5 * h);
+  VecX v = state.v;
+  for (int i = 0; i < model.num_free(); ++i) {
+    const int block = model.free_blocks[i];
+    const Mat6 M = mass_matrix(model.bodies[block], state.poses[block].q_WB);
+    v.segment<6>(6 * i) += h * M.llt().solve(f.segment<6>(6 * i));
+  }
+  integrate_positions(model, h, h, v, &end);
+  const std::optional<FastPair> fast = fast_pair(shapes, state.poses, end.poses, h, middle);
+  return fast ? fast->longest : h;
+}
+
 [[maybe_unused]] bool is_finite(const State& state) {
   const auto finite = [](const Pose& pose) {
     return pose.p_WB.allFinite() && pose.q_WB.coeffs().allFinite();
@@ -57,6 +75,10 @@ Simulation::Simulation(Model model, const SimulationOptions& options)
 StepReport Simulation::advance(double h_max) {
   StepOptions step = options_.step;
   step.h = std::min(next_h_, h_max);
+  if (options_.adaptive)
+    step.h = std::min(
+        step.h, std::max(options_.adaptive->smallest,
+                         detected_step(model_, detector_.model(), state_, step.h, step.integrator.middle)));
   const State middle = middle_of_step(model_, state_, step);
   detector_.update(middle.poses, travel(step.h));
   heat_contacts(middle.poses);

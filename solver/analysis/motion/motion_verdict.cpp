@@ -47,6 +47,18 @@ std::string elastic_text(const Analysis& analysis, const RunProgress& progress) 
       analysis.adaptive ? "" : " or a much longer `analysis.time_step`");
 }
 
+/// A warning if blocks may have passed others undetected.
+std::string fast_text(const Analysis& analysis, const RunProgress& progress) {
+  constexpr double kShare = 0.9;  // of the longest step, since other steps end elsewhere
+  const FastPair& fast = progress.fast;
+  return fmt::format(
+      "block {} may have passed through block {}: in the step up to {:.4g} s it moves by {:.3g} m, farther "
+      "than contacts are sought; so in {} of {}. Try `{}: {:.1e}`",
+      fast.block, fast.other, progress.fast_time, fast.way, progress.fast_steps,
+      counted(progress.steps, "step"),
+      analysis.adaptive ? "analysis.adaptive.smallest" : "analysis.time_step", kShare * fast.longest);
+}
+
 /// Why a motion is not at rest at its end; "" if it is. `speed`: m/s, largest at the end.
 std::string unrest_text(const Analysis::Thresholds& thresholds, const RestWindow& rest, double speed) {
   if (speed > thresholds.speed)
@@ -92,6 +104,7 @@ std::vector<std::string> motion_warnings(const Analysis& analysis, const RunProg
         "unstable balance at the start, as on an edge: a small disturbance would end it, so that rest "
         "without "
         "one is no evidence that the structure stands");
+  if (progress.fast_steps > 0) warnings.push_back(fast_text(analysis, progress));
   if (progress.elastic_steps > 0) warnings.push_back(elastic_text(analysis, progress));
   return warnings;
 }

@@ -6,6 +6,7 @@
 #include "solver/analysis/motion/dynamic_history.hpp"
 #include "solver/analysis/motion/rest_window.hpp"
 #include "solver/analysis/record/record_archive.hpp"
+#include "solver/collision/fast_blocks.hpp"
 
 namespace cupola {
 
@@ -28,6 +29,9 @@ struct RunProgress {
   int elastic_steps = 0;       // steps in which contacts begin to bounce, and their longest time of impact, s
   double elastic_impact = 0.0;   // (elastic_impact.hpp)
   bool starts_unstable = false;  // the static start is an unstable balance
+  int fast_steps = 0;            // steps with a fast_pair(), the first of them, and when, s
+  FastPair fast;
+  double fast_time = 0.0;
 };
 
 template <class Archive>
@@ -44,10 +48,11 @@ template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
   archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.coarse_steps, x.worst_time_error,
           x.worst_error, x.measure, x.worst, x.energy, x.rest, x.farthest, x.farthest_time, x.calm_since,
-          x.elastic_steps, x.elastic_impact, x.starts_unstable);
+          x.elastic_steps, x.elastic_impact, x.starts_unstable, x.fast_steps, x.fast, x.fast_time);
 }
 
-/// Warnings if impacts were elastic, and if the motion started from an unstable balance.
+/// Warnings of an unstable balance at the start, of blocks that may have passed others undetected, and of
+/// elastic impacts.
 std::vector<std::string> motion_warnings(const Analysis& analysis, const RunProgress& progress);
 
 /// Sets status, accuracy, message and the largest displacement from that and the speed at the end. `last`: the

@@ -355,6 +355,27 @@ TEST(Impact, IsElasticWhereverInAStepOfGeneralizedAlphaItIs) {
   }
 }
 
+// A cube of 0.3 m falls by 20 m onto a plate 0.1 m thick: at 20 m/s, 2 m in a fixed step.
+TEST(FastBlocks, StopAtAPlateOrAWarningSaysSo) {
+  const Assembly assembly =
+      testing::make_boxes({{.center = {0, 0, -0.05}, .size = {4, 4, 0.1}, .fixed = true},
+                           {.center = {0, 0, 20.15}, .size = Vec3::Constant(0.3)}});
+  Case scene = make_case(0.5, 1e-12, 0.1);
+  scene.analysis.tolerance = 1e-9;
+  scene.analysis.duration = 2.2;
+  scene.analysis.thresholds.displacement = 100.0;
+  const Summary fixed = run(scene, assembly).summary;
+  EXPECT_GT(fixed.final_displacement_m.value(), 22.0) << "through the plate";
+  ASSERT_FALSE(fixed.warnings.empty());
+  EXPECT_EQ(fixed.warnings[0].find("block 1 may have passed through block 0: in the step up to 2 s"), 0U)
+      << fixed.warnings[0];
+  scene.analysis.integrator = TimeIntegrator::generalized_alpha;
+  scene.analysis.adaptive = AdaptiveStep{.displacement_error = 1e-3};
+  const Summary adapted = run(scene, assembly).summary;
+  EXPECT_LT(adapted.max_displacement_m.value(), 20.05) << "it may enter the plate in the step of the impact";
+  EXPECT_TRUE(adapted.warnings.empty() || adapted.warnings[0].find("passed through") == std::string::npos);
+}
+
 TEST(StopRules, EndTheAnalysisWhenSettledOrCollapsed) {
   const Assembly assembly = testing::box_on_floor({1, 1, 1});
   Case scene = make_case(0.4, 1e-8, 0.01);
