@@ -69,7 +69,9 @@ void declare_limit(Section& s, LimitSearch& limit) {
   s.optional_number("relative_width", limit.relative_width, {.above = 0, .below = 1},
                     "1e-3 by bisection; direct: 1e-4 for friction, thickness and joint_extent, else 1e-5",
                     "largest width of the final bracket over its middle value");
-  s.vector3("direction", limit.direction, {}, "tilt, acceleration: horizontal direction of the pull");
+  s.vector3("direction", limit.direction, {},
+            "tilt, acceleration: horizontal direction of the pull; where gravity leans, its part at right "
+            "angles to gravity");
   s.optional_section("joints", limit.joints, "friction: vary only these joints; default: all joints",
                      declare_joint_group);
   s.rule(!scales || limit.low > 0.0, "low", "must be > 0 when parameter is thickness or joint_extent");
@@ -198,9 +200,10 @@ void declare_analysis(Section& s, Analysis& analysis) {
   s.integer("cyclic_sectors", analysis.cyclic_sectors, {.min = 1, .max = 100000},
             "static, range: number of equal sectors around the z axis, of which one is solved (a range: for "
             "quantities that repeat around the axis too); 1: solve the whole model");
-  s.integer(
-      "robustness", analysis.robustness, {.min = 0, .max = 3600},
-      "static: horizontal directions in which to find the least acceleration that makes it move; 0: none");
+  s.integer("robustness", analysis.robustness, {.min = 0, .max = 3600},
+            "static: horizontal directions in which to find the least acceleration, at right angles to "
+            "gravity, that "
+            "makes it move; 0: none");
   declare_accuracy(s, analysis);
   s.integer("max_iterations", analysis.max_iterations, {.min = 0, .max = 1000000},
             "iterations of the method per contact problem; 0: the method's own limit");

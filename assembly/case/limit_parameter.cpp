@@ -12,15 +12,6 @@
 namespace cupola {
 namespace {
 
-/// Unit vector along the component of `analysis.limit.direction` normal to gravity.
-Vec3 horizontal(const Case& scene) {
-  const Vec3 down = scene.loads.gravity.normalized();
-  const Vec3& direction = scene.analysis.limit.direction;
-  const Vec3 level = direction - direction.dot(down) * down;
-  CUPOLA_ASSERT(level.norm() > 0.0);
-  return level.normalized();
-}
-
 /// Makes a time function constant, with its value at time 0.
 void freeze(TimeFunction* time) {
   if (std::holds_alternative<ConstantInTime>(*time)) return;
@@ -56,14 +47,15 @@ Case case_at(const Case& scene, double value) {
     }
     case LimitSearch::Parameter::tilt: {
       const double angle = value * std::numbers::pi / 180.0;
-      at.loads.gravity = std::cos(angle) * scene.loads.gravity + std::sin(angle) * g * horizontal(scene);
+      at.loads.gravity =
+          std::cos(angle) * scene.loads.gravity + std::sin(angle) * g * direction_of_pull(scene);
       break;
     }
     case LimitSearch::Parameter::acceleration: {
       if (factor_at(scene.loads.dead_load_time, 0.0) == 0.0)
         throw InputError(
             "loads.dead_load_time = 0 at the time 0: a critical acceleration requires that the weight acts");
-      at.loads.pull = value * g * horizontal(scene);
+      at.loads.pull = value * g * direction_of_pull(scene);
       break;
     }
     case LimitSearch::Parameter::load:
@@ -89,6 +81,18 @@ Case case_at(const Case& scene, double value) {
       break;
   }
   return at;
+}
+
+Vec3 direction_of_pull(const Case& scene) {
+  const Vec3 down = scene.loads.gravity.normalized();
+  const Vec3& direction = scene.analysis.limit.direction;
+  const Vec3 level = direction - direction.dot(down) * down;
+  CUPOLA_ASSERT(level.norm() > 0.0);
+  return level.normalized();
+}
+
+bool seeks_lantern(const Analysis& analysis) {
+  return analysis.type == AnalysisType::limit && analysis.limit.parameter == LimitSearch::Parameter::lantern;
 }
 
 std::string varied_joints(const LimitSearch& limit) {

@@ -12,6 +12,13 @@ namespace cupola {
 Case case_at(const Case& scene, double value);
 
 /// " of the bed joints of course 1": those whose friction alone the limit varies; "" if of all, or another
+/// Unit vector along the pull of a tilt or an acceleration: the part of `analysis.limit.direction` at right
+/// angles to gravity.
+Vec3 direction_of_pull(const Case& scene);
+
+/// True for a limit analysis of the weight of a lantern.
+bool seeks_lantern(const Analysis& analysis);
+
 /// parameter.
 std::string varied_joints(const LimitSearch& limit);
 

@@ -67,7 +67,7 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (!decides.empty())
     details.push_back(
         fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
-  if (const std::string direction = direction_of_limit(e.scene.analysis.limit); !direction.empty())
+  if (const std::string direction = direction_of_limit(e.scene); !direction.empty())
     details.push_back(direction);
   if (shows_bracket(critical) || critical.value == 0.0)
     details.push_back(fmt::format("stands at {}, moves at {}", value_text(critical.stable, unit, 5),

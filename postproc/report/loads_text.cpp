@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/case/limit_parameter.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/evaluation/thrust.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
@@ -108,15 +109,17 @@ std::string assumed_ties(const Evaluation& e) {
   return fmt::format("{}", fmt::join(assumed, ", "));
 }
 
-std::string direction_of_limit(const LimitSearch& limit) {
+std::string direction_of_limit(const Case& scene) {
+  const LimitSearch& limit = scene.analysis.limit;
   if (limit.parameter != LimitSearch::Parameter::tilt &&
       limit.parameter != LimitSearch::Parameter::acceleration)
     return "";
-  const Vec3 d = limit.direction.normalized();
+  const Vec3 d = direction_of_pull(scene).array() + 0.0;  // no -0
   std::string towards = fmt::format("({:.3g}, {:.3g}, {:.3g})", d.x(), d.y(), d.z());
   for (const int axis : {0, 1, 2})
     if (std::abs(d[axis]) == 1.0) towards = fmt::format("{}{}", d[axis] > 0.0 ? '+' : '-', "xyz"[axis]);
-  return fmt::format("pulled towards {}; other directions are not computed", towards);
+  return fmt::format("pulled towards {}{}; other directions are not computed", towards,
+                     d.z() != 0.0 ? ", at right angles to gravity" : "");
 }
 
 std::string friction_text(const Joints& joints) {

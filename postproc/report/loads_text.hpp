@@ -27,7 +27,7 @@ std::string carriers_text(const Evaluation& evaluation);
 std::string assumed_ties(const Evaluation& evaluation);
 
 /// "pulled towards +x; other directions are not computed": of the limit of a tilt or an acceleration; else "".
-std::string direction_of_limit(const LimitSearch& limit);
+std::string direction_of_limit(const Case& scene);
 
 /// "a coefficient of friction of 0.7", "coefficients of friction of 0.4 to 0.7".
 std::string friction_text(const Joints& joints);

@@ -191,7 +191,7 @@ std::string limit_text(const Evaluation& e) {
   const std::optional<double> factor = factor_of_safety(e.scene, e.summary);
   if (!own || !factor) {
     const LimitSearch& limit = e.scene.analysis.limit;
-    const std::string direction = direction_of_limit(limit), joints = varied_joints(limit);
+    const std::string direction = direction_of_limit(e.scene), joints = varied_joints(limit);
     return verdict_text(e.summary, e.last.frame.role) +
            (direction.empty() ? "" : fmt::format(" It is {}.", direction)) +
            (joints.empty() ? ""

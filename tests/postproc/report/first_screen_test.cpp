@@ -187,6 +187,10 @@ TEST(FirstScreen, ALimitOfAnAccelerationNamesItsDirection) {
       << reason_for_verdict(e);
   limit.direction = {3.0, 4.0, 0.0};
   EXPECT_EQ(margin_answer(e).detail, "pulled towards (0.6, 0.8, 0); other directions are not computed");
+  limit.direction = {1.0, 0.0, 0.0};
+  e.scene.loads.gravity = {3.0, 0.0, -4.0};  // which leans towards it
+  EXPECT_EQ(margin_answer(e).detail,
+            "pulled towards (0.8, 0, 0.6), at right angles to gravity; other directions are not computed");
 }
 
 TEST(FirstScreen, WithoutAMarginItNamesTheCommandThatComputesOne) {
