@@ -106,6 +106,17 @@ std::string varied_joints(const LimitSearch& limit) {
                     : fmt::format(" of the {}joints of courses {} to {}", kind, from, to);
 }
 
+std::pair<double, double> compressive_strengths(const Joints& joints) {
+  std::pair range{joints.strength.compression, joints.strength.compression};
+  const auto include = [&range](const JointLawChange& law) {
+    range.first = std::min(range.first, law.compressive_strength.value_or(range.first));
+    range.second = std::max(range.second, law.compressive_strength.value_or(range.second));
+  };
+  for (const auto& kind : joints.kinds()) include(*kind.second);
+  for (const RingJoints& group : joints.rings) include(group.law);
+  return range;
+}
+
 std::optional<double> own_value(const Case& scene) {
   using enum LimitSearch::Parameter;
   const LimitSearch& limit = scene.analysis.limit;
@@ -131,8 +142,12 @@ std::optional<double> own_value(const Case& scene) {
       const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});
       return lantern.weight + lantern.mass > 0.0 ? std::nullopt : if_in_bracket(lantern.weight_fraction);
     }
+    case peak_stress: {
+      const auto [least, greatest] = compressive_strengths(scene.joints);
+      const bool varies = scene.joints.field && scene.joints.field->strength > 0.0;
+      return least == greatest && std::isfinite(least) && !varies ? std::optional(least) : std::nullopt;
+    }
     case thickness:
-    case peak_stress:
       break;
   }
   return std::nullopt;

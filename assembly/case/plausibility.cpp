@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/case/case_node.hpp"
+#include "assembly/case/limit_parameter.hpp"
 
 namespace cupola {
 namespace {
@@ -19,13 +20,6 @@ std::optional<std::string> unused_tension(const std::string& key, double frictio
       "{}tension = {:g} Pa exceeds cohesion / friction = {:g} Pa, at which a joint has no shear "
       "strength left; the smaller value applies",
       key, tension, cohesion / friction);
-}
-
-bool can_crush(const Joints& joints) {
-  const auto crushes = [](const JointLawChange& law) { return law.compressive_strength.has_value(); };
-  return std::isfinite(joints.strength.compression) ||
-         std::ranges::any_of(joints.kinds(), [&](const auto& kind) { return crushes(*kind.second); }) ||
-         std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return crushes(group.law); });
 }
 
 }  // namespace
@@ -50,7 +44,8 @@ std::vector<std::string> unused_tensions(const Joints& joints) {
 
 std::vector<std::string> undivided_joints(const Case& scene) {
   const CaseNode* contact = scene.keys->find("contact");
-  if ((contact && contact->find("subdivide")) || !can_crush(scene.joints)) return {};
+  if ((contact && contact->find("subdivide")) || std::isinf(compressive_strengths(scene.joints).first))
+    return {};
   return {
       "contact.subdivide is not given: an undivided joint with compressive strength is 20 % too strong "
       "where a sixth of it bears, 85 % where a tenth does, and more below, because its edge never crushes, "

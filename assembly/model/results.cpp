@@ -80,7 +80,8 @@ std::string critical_text(const CriticalValue& critical) {
 }
 
 std::string phrase(const std::string& parameter, double value) {
-  const std::string unit = limit_unit(parameter), name = in_words(parameter);
+  const std::string unit = limit_unit(parameter);
+  const std::string name = parameter == "peak_stress" ? "compressive strength" : in_words(parameter);
   if (unit == "factor") return fmt::format("a {} factor of {:.5g}", name, value);
   return fmt::format("a{} {} of {:.5g}{}{}", name.starts_with('a') ? "n" : "", name, value,
                      unit.empty() ? "" : " ", unit);

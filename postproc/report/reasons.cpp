@@ -64,14 +64,6 @@ std::string moved_text(const Evaluation& e) {
 
 namespace {
 
-/// True if some joints are given a compressive strength.
-bool limits_pressure(const Joints& joints) {
-  if (std::isfinite(joints.strength.compression)) return true;
-  const auto limits = [](const JointLawChange& law) { return law.compressive_strength.has_value(); };
-  return std::ranges::any_of(joints.kinds(), [&](const auto& kind) { return limits(*kind.second); }) ||
-         std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return limits(group.law); });
-}
-
 /// The laws that joints have in the run: in stages of construction fresh mortar's, too.
 Joints laws_of(const Evaluation& e) {
   Joints joints = e.scene.joints;
@@ -155,7 +147,7 @@ std::string assumptions(const Evaluation& e) {
   if (const std::string ties = assumed_ties(e); !ties.empty()) given.push_back(ties);
   if (!e.scene.loads.heat.empty()) given.emplace_back("the changes of temperature");
   if (!moved_text(e).empty()) given.push_back("the motion of the supports");
-  if (!limits_pressure(e.scene.joints)) given.push_back("no crushing (not checked)");
+  if (std::isinf(compressive_strengths(e.scene.joints).first)) given.push_back("no crushing (not checked)");
   return fmt::format("{}", fmt::join(given, ", "));
 }
 

@@ -161,5 +161,20 @@ TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
   EXPECT_TRUE(certain_sentence(e).starts_with("Nothing is certain")) << certain_sentence(e);
 }
 
+// No state of joints that bear less than the least peak stress balances the loads.
+TEST(LimitAnswers, AStressBeyondTheCompressiveStrengthIsItsFall) {
+  Evaluation e = limit_of(LimitSearch::Parameter::peak_stress, 0.0, 1.7208e5, 1.7207e5);
+  EXPECT_EQ(verdict_words(e).words, "It stands") << "strength without limit";
+  e.scene.joints.strength.compression = 1.6e5;
+  EXPECT_EQ(verdict_words(e).words, "It falls");
+  EXPECT_TRUE(reason_for_verdict(e).starts_with(
+      "The case has a compressive strength of 1.6e+05 Pa, 0.93 times what it needs: it stands down to"))
+      << reason_for_verdict(e);
+  e.scene.joints.strength.compression = 2e5;
+  EXPECT_EQ(verdict_words(e).words, "It stands");
+  e.scene.joints.bed.emplace().compressive_strength = 1e5;
+  EXPECT_EQ(verdict_words(e).words, "Limit found") << "some joints bear it, and some do not";
+}
+
 }  // namespace
 }  // namespace cupola::limit_answers_test
