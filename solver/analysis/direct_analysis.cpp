@@ -26,7 +26,10 @@ namespace {
 /// history.csv: one row per conic programme.
 constexpr CsvColumn<DirectTrial> kDirectColumns[] = {
     {"value", [](const DirectTrial& t) { return fmt::format("{:.17g}", t.value); }},
-    {"admissible", [](const DirectTrial& t) { return std::string(t.admissible ? "1" : "0"); }},
+    {"admissible",
+     [](const DirectTrial& t) {
+       return std::string(!t.admissible ? "" : *t.admissible ? "1" : "0");
+     }},
     {"pull", [](const DirectTrial& t) { return t.pull ? fmt::format("{:.2e}", *t.pull) : ""; }},
     {"iterations", [](const DirectTrial& t) { return std::to_string(t.iterations); }},
 };
@@ -81,7 +84,10 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   int trials = 0;
   const auto report = [&](const DirectTrial& trial) {
     sinks.log(fmt::format("trial {:3d}  {} {:14.10g}  {:<10}  iterations {:3d}{}", ++trials,
-                          to_string(limit.parameter), trial.value, trial.admissible ? "admissible" : "moves",
+                          to_string(limit.parameter), trial.value,
+                          !trial.admissible   ? "undecided"
+                          : *trial.admissible ? "admissible"
+                                              : "moves",
                           trial.iterations,
                           trial.pull ? fmt::format("  pull needed {:.2e}", *trial.pull) : ""));
     sinks.history(csv_row(kDirectColumns, trial));

@@ -13,7 +13,7 @@ namespace cupola {
 /// One solve of a direct limit analysis.
 struct DirectTrial {
   double value = 0.0;
-  bool admissible = false;  ///< forces in equilibrium and within the cones exist
+  std::optional<bool> admissible;  ///< forces in equilibrium and within the cones exist; none: undecided
   std::optional<double>
       pull;  ///< that the contacts need (pull_solve.hpp); infinite: none helps, or any pressure is possible
   int iterations = 0;

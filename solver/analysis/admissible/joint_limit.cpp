@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -31,7 +32,8 @@ class PullTrials {
     PullSolve solve = solve_pull(value, scene_at_(value), estimate);
     ++count;
     iterations += solve.solution.iterations;
-    report_({value, solve.pull <= 0.0, solve.pull, solve.solution.iterations});
+    report_({value, solve.decided ? std::optional(solve.admissible()) : std::nullopt, solve.pull,
+             solve.solution.iterations});
     return solve;
   }
   DirectLimit counts() const {

@@ -19,9 +19,9 @@ std::optional<bool> has_state(const SceneAt& scene_at, double value, DirectLimit
   const ConicSolution any = solve_conic(scene_at(value).problem);
   ++limit->trials;
   limit->iterations += any.iterations;
-  const bool admissible = any.outcome == ConicOutcome::optimal;
+  std::optional<bool> admissible;
+  if (any.outcome != ConicOutcome::stalled) admissible = any.outcome == ConicOutcome::optimal;
   report({value, admissible, {}, any.iterations});
-  if (any.outcome == ConicOutcome::stalled) return std::nullopt;
   return admissible;
 }
 

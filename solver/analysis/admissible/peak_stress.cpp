@@ -8,6 +8,11 @@
 namespace cupola {
 namespace {
 
+/// Edges and corners have no area, so that no stress limits them.
+double area_of(const Contact& point, const RigidScene& rigid) {
+  return rigid.contacts.patches[point.patch].area > 0.0 ? point.area : 0.0;
+}
+
 /// gamma_n,i <= p A_i with the multiplier p; the joints' own compressive strength does not count.
 ConicProblem stress_problem(const RigidScene& rigid) {
   ConicProblem problem = with_multiplier(rigid.problem, VecX::Zero(rigid.problem.load.size()), 1.0);
@@ -15,20 +20,27 @@ ConicProblem stress_problem(const RigidScene& rigid) {
   strength.resize(static_cast<size_t>(problem.contacts.num_contacts()));
   std::vector<ContactStrength> per_stress(strength.size(), {0.0, 0.0, 0.0});
   for (size_t i = 0; i < rigid.contacts.points.size(); ++i) {
+    const double area = area_of(rigid.contacts.points[i], rigid);
+    if (area == 0.0) continue;
     strength[i].compression = 0.0;
-    per_stress[i].compression = rigid.contacts.points[i].area;
+    per_stress[i].compression = area;
   }
   problem.strength_columns.push_back(std::move(per_stress));
   return problem;
 }
 
+double area_of_joints(const RigidScene& rigid) {
+  double area = 0.0;
+  for (const Contact& point : rigid.contacts.points) area += area_of(point, rigid);
+  return area;
+}
+
 /// Of all loads over all joints, Pa: what a stress of zero is small against.
 double stress_of_loads(const RigidScene& rigid) {
-  double loads = 0.0, area = 0.0;
+  double loads = 0.0;
   for (Eigen::Index i = 0; i < rigid.problem.load.size(); i += 6)
     loads += rigid.problem.load.segment<3>(i).norm();
-  for (const Contact& point : rigid.contacts.points) area += point.area;
-  return loads / area;
+  return loads / area_of_joints(rigid);
 }
 
 }  // namespace
@@ -38,6 +50,10 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
     throw InputError(
         "analysis.limit.parameter: peak_stress requires joints.compliance.per: area, with which contact "
         "points stand for areas");
+  if (area_of_joints(rigid) == 0.0)
+    throw InputError(
+        "analysis.limit.parameter: peak_stress requires joints with an area: all blocks touch at edges or "
+        "corners");
   const ConicProblem problem = stress_problem(rigid);
   const ConicSolution solution = solve_conic(problem);
   DirectLimit limit;

@@ -1,6 +1,7 @@
 #include "solver/analysis/admissible/pull_solve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -29,6 +30,15 @@ bool proves_pull(const PullSolve& solve) {
          conic_bounds(solve.problem, solve.solution).lower > 0.0;
 }
 
+/// Without pull columns that change an equilibrium or a strength, as between parallel walls, alpha is as small
+/// as one likes if any state balances the loads, and no alpha helps if none does.
+bool is_without_effect(const ConicProblem& problem, double press) {
+  constexpr double kRounding = 1e-12;  // of a pressure
+  return problem.load_columns.lpNorm<Eigen::Infinity>() <= kRounding * press &&
+         std::ranges::none_of(problem.contacts.strength,
+                              [](const ContactStrength& s) { return std::isfinite(s.compression); });
+}
+
 }  // namespace
 
 PullSolve solve_pull(double value, RigidScene scene, double estimate) {
@@ -43,7 +53,13 @@ PullSolve solve_pull(double value, RigidScene scene, double estimate) {
     const ContactStrength pressed{0.0, 0.0, solve.scene.model.block_weight};
     solve.problem.strength_columns.assign(1, std::vector(rigid.contacts.strength.size(), pressed));
   }
-  solve.solution = solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate});
+  const bool any_pull = is_without_effect(solve.problem, solve.scene.model.block_weight);
+  solve.solution = any_pull ? solve_conic(rigid)
+                            : solve_conic(solve.problem, {.target = 1e-10, .relative_target = estimate});
+  if (any_pull) {
+    solve.solution.multipliers = VecX::Zero(1);
+    if (solve.solution.outcome == ConicOutcome::optimal) solve.solution.outcome = ConicOutcome::unbounded;
+  }
   const double infinity = std::numeric_limits<double>::infinity();
   solve.pull = solve.solution.primal;
   switch (solve.solution.outcome) {

@@ -103,5 +103,27 @@ TEST(DirectLimitEnds, ALeastPeakStressOfZeroIsFound) {
   EXPECT_NEAR(summary.critical->value, 0.0, 1e-8 * kWeight);
 }
 
+// Between parallel walls a block presses as hard as one likes, which no equilibrium notices.
+TEST(DirectLimitEnds, ABlockBetweenParallelWallsNeedsNoFriction) {
+  const Summary summary =
+      run(limit_case(Parameter::friction, 0.0, 1.0, 0.6), testing::wedge_between_walls(0.0));
+  EXPECT_EQ(summary.status, Status::stable);
+  EXPECT_NE(summary.message.find("no limit: the structure stands with a friction of 1e-05"),
+            std::string::npos)
+      << summary.message;
+}
+
+// A beam on a bed and on an edge, which bears half of it: of the edge no stress is known.
+TEST(DirectLimitEnds, APeakStressLeavesOutEdges) {
+  const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitY()));
+  const testing::BoxSpec beam{.center = {0, 0, 0.25}, .size = {3, 1, 0.5}},
+      bed{.center = {-1, 0, -0.5}, .fixed = true},
+      edge{.center = {1, 0, -std::sqrt(0.5)}, .fixed = true, .rotation = on_edge};
+  Case scene = limit_case(Parameter::peak_stress, 0.0, 1.0, 0.3);
+  scene.joints.compliance.per = Compliance::Per::area;
+  expect_critical(scene, testing::make_boxes({bed, edge, beam}), 0.5 * 1.5 * kWeight);
+  EXPECT_THROW(run(scene, testing::make_boxes({edge, {.center = {1, 0, 0.5}}})), InputError) << "no area";
+}
+
 }  // namespace
 }  // namespace cupola::direct_limit_ends_test
