@@ -4,10 +4,14 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/case/limit_parameter.hpp"
+#include "assembly/model/block_names.hpp"
 #include "solver/dynamics/model.hpp"
 
 namespace cupola {
@@ -125,12 +129,30 @@ std::string weak_text(const OnSupports& joints) {
       joints.load.norm() / joints.area, joints.capacity / joints.area);
 }
 
+/// Edges and corners, whose forces no compressive strength limits where one is given or sought.
+std::string unlimited_text(const Case& scene, const Assembly& assembly, const ContactSet& contacts) {
+  const bool sought = scene.analysis.type == AnalysisType::limit &&
+                      scene.analysis.limit.parameter == LimitSearch::Parameter::peak_stress;
+  if (!sought && std::isinf(compressive_strengths(scene.joints).first)) return "";
+  std::set<std::pair<int, int>> joints;
+  for (const Contact& contact : contacts.points)
+    if (contacts.patches[contact.patch].area == 0.0) joints.emplace(contact.block_a, contact.block_b);
+  if (joints.empty()) return "";
+  const auto [a, b] = *joints.begin();
+  return fmt::format(
+      "the blocks of {}, the first {} and {}, touch at edges or corners, which have no area: no compressive "
+      "strength limits the forces there; give these blocks faces that bear, or check their forces in "
+      "joints.csv",
+      counted(joints.size(), "joint"), block_label(assembly, a), block_label(assembly, b));
+}
+
 }  // namespace
 
 std::vector<std::string> joint_warnings(const Case& scene, const Assembly& assembly,
                                         const ContactSet& contacts) {
   const OnSupports joints = joints_on_supports(scene, assembly, contacts);
-  std::vector<std::string> warnings{soft_text(joints, assembly, scene.joints.compliance)};
+  std::vector<std::string> warnings{soft_text(joints, assembly, scene.joints.compliance),
+                                    unlimited_text(scene, assembly, contacts)};
   if (scene.joints.have_strength()) warnings.push_back(weak_text(joints));
   std::erase(warnings, "");
   return warnings;

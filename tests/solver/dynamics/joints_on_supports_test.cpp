@@ -1,5 +1,8 @@
 #include "solver/dynamics/joints_on_supports.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "tests/solver/motion_scenes.hpp"
@@ -103,6 +106,21 @@ TEST(WeakJoints, CountLoadsThatAct) {
   EXPECT_EQ(count(limit, {}), 0u);
   scene.analysis.limit.parameter = LimitSearch::Parameter::friction;
   EXPECT_EQ(count(limit, {}), 1u);
+}
+
+// A cube on the edge of another has no area that could be crushed.
+TEST(EdgesOfStrongJoints, AreNotLimitedAndSaidToBeSo) {
+  const Eigen::Quaterniond on_edge(Eigen::AngleAxisd(0.25 * std::numbers::pi, Vec3::UnitY()));
+  const Assembly cube = testing::make_boxes(
+      {{.center = {0, 0, -std::sqrt(0.5)}, .fixed = true, .rotation = on_edge}, {.center = {0, 0, 0.5}}});
+  Case scene = per_area(1e-10);
+  EXPECT_TRUE(warnings_of(scene, cube).empty());
+  scene.joints.strength.compression = 1e6;
+  const std::vector<std::string> found = warnings_of(scene, cube);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].starts_with("the blocks of 1 joint, the first 0 and 1, touch at edges or corners"))
+      << found[0];
+  EXPECT_TRUE(warnings_of(scene, testing::box_on_floor({1, 1, 1})).empty());
 }
 
 }  // namespace
