@@ -118,11 +118,14 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
                     const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
   std::vector<double> normal_force(from_below.size(), 0.0), area(from_below.size(), 0.0);
   std::vector<double> ring_area(rings->size(), 0.0), moment(ring_area);  // m2, and m3 of heights
+  std::vector<double> leaning_area(ring_area), leaning_moment(ring_area);
   std::vector<char> is_carried(from_below.size(), 0);
   for (const JointWrench& joint : joints.wrenches) {
     if (const auto springer = on_other_stack(assembly, joint); springer && joint.carried < 0) {
       const int k = ring_above_support(assembly.blocks[*springer]);
       (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, *springer).force);
+      leaning_moment[k] += joint.area * joint.patch.centroid.z();
+      leaning_area[k] += joint.area;
     }
     const int carried = joint.carried;
     if (carried < 0 || assembly.blocks[carried].fixed) continue;
@@ -152,7 +155,10 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   }
   for (size_t k = 0; k < rings->size(); ++k) {
     RingSum& ring = (*rings)[k];
-    if (ring_area[k] > 0.0) ring.height = moment[k] / ring_area[k];
+    if (ring_area[k] > 0.0)
+      ring.height = moment[k] / ring_area[k];
+    else if (std::isnan(ring.height) && leaning_area[k] > 0.0)
+      ring.height = leaning_moment[k] / leaning_area[k];
     if (!resultants[k].empty()) ring.mean_resultant /= static_cast<double>(resultants[k].size());
     ring.cv_resultant = above(coefficient_of_variation(resultants[k]), joints.floor.share);
     ring.cv_pressure = above(coefficient_of_variation(pressures[k]), joints.floor.share);

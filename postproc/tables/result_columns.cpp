@@ -66,7 +66,8 @@ const Columns<RingSum>& ring_columns() {
   using R = RingSum;
   static const Columns<R> columns{
       {"ring", "", "the cut runs below this ring", &R::ring},
-      {"height_m", "m", "mean height of the ring's bed joints, of its bed where it has none", &R::height},
+      {"height_m", "m",
+       "mean height of the ring's bed joints, of its bed where it has none, or of its skewbacks", &R::height},
       {"blocks", "", "blocks that begin in the ring", &R::blocks},
       {"joint_force_{}_N", "N", "sum of the forces of joints and ties on the blocks above the cut",
        &R::joint_force},

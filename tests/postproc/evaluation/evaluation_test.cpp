@@ -11,6 +11,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/content_hash.hpp"
 #include "assembly/model/thickness.hpp"
+#include "postproc/mechanics/ring_sums.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/post_summary.hpp"
@@ -303,6 +304,21 @@ TEST(Evaluation, AStageHasTheBlocksThatAreTheUpperOnesOfNoJoint) {
   ASSERT_EQ(e.last.loads.size(), 1u) << "the structure is complete";
   EXPECT_NEAR(e.rings[0].load_above.z(), -4.0 * kBlockWeight, 1e-12 * kBlockWeight);
   for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14) << ring.ring;
+}
+
+// A mitre on which a springer leans has cut away its bed, and is no bed of the block above.
+TEST(Evaluation, ASpringerOnASkewbackIsAtTheHeightOfItsJoint) {
+  const Evaluation e = column_evaluation(0.6, 0.4);
+  Assembly a = e.assembly;
+  a.sheets = {{.name = "pier", .num_rings = 1}, {.name = "arch", .first_ring = 1, .num_rings = 2}};
+  Shell shell = e.shell;
+  shell.beds[1].clear();
+  JointWrenches joints = e.last.joints;
+  for (JointWrench& joint : joints.wrenches)
+    if (std::max(joint.block_a, joint.block_b) == 2) joint.carried = -1;
+  const std::vector<RingSum> rings =
+      ring_sums(a, shell, joints, e.last.from_below, e.last.gravity, {}, {}, std::vector<bool>());
+  EXPECT_NEAR(rings.at(1).height, 0.5, 1e-15) << "rounding";
 }
 
 // Of an arch of three stones the third is the springer of the other haunch, laid and held with the first.
