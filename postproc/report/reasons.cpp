@@ -240,8 +240,10 @@ std::string reason_for_verdict(const Evaluation& e) {
   if (at_rest(e) && !e.summary.parts.empty()) return parts_sentence(e);
   const Summary& s = e.summary;
   std::string text;
+  if (const auto latest = end_of_loads(e))
+    text = fmt::format("At most those at {:.4g} s of {:.4g} s. ", *latest, e.scene.analysis.path.end);
   if (shows_the_case(e) && stands(s.status))
-    text = carried_text(e);
+    text += carried_text(e);
   else if (e.last.frame.role == FrameRole::step && (s.status == Status::collapsed || moves(s.status)))
     text = motion_text(e);
   else if (s.critical && s.status != Status::unconverged && !is_stage(e.last.frame.role))

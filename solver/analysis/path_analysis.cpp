@@ -277,8 +277,9 @@ void PathRun::judge(double started) {
       fmt::format("largest force {:.6g} N at {:.6g} {} (block {}{})", progress_.largest_force,
                   options_.length ? progress_.displacement_of_largest : progress_.time_of_largest,
                   options_.length ? "m" : "s", block_label(*model_.assembly, control_.block), chosen);
-  const std::string reached =
-      options_.length ? fmt::format("{:.6g} m", displacement()) : fmt::format("{:.6g} s", path_.value());
+  const std::string reached = options_.length ? fmt::format("{:.6g} m, at {:.4g} s of {:g} s", displacement(),
+                                                            path_.value(), options_.end)
+                                              : fmt::format("{:.6g} s", path_.value());
   if (stands(last_status_)) {
     summary_.status = standing(progress_.proven);
     summary_.message = fmt::format(
