@@ -10,12 +10,14 @@
 #include "assembly/case/geometry.hpp"
 #include "assembly/case/imported_blocks.hpp"
 #include "assembly/case/keys_without_effect.hpp"
+#include "assembly/case/limit_parameter.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/files/assembly_file.hpp"
 #include "assembly/model/applied_loads.hpp"
 #include "assembly/model/assembly.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/block_region.hpp"
+#include "assembly/model/loads_on_top.hpp"
 #include "assembly/model/random_field.hpp"
 #include "generators/chains.hpp"
 #include "generators/importer/import_supports.hpp"
@@ -174,6 +176,7 @@ Case resolved_case(const Case& input, const Assembly& assembly) {
   resolve_block_names(assembly, &resolved.loads, &resolved.ties, &resolved.supports);
   resolve_block_names(assembly, &resolved.analysis.range.quantities);
   applied_loads(resolved.loads, assembly);
+  if (seeks_lantern(resolved.analysis)) require_top_for_lantern(assembly, resolved.loads.gravity.norm());
   for (size_t i = 0; i < resolved.supports.moves.size(); ++i)
     blocks_of_region(resolved.supports.moves[i].region, assembly, true, fmt::format("supports.moves[{}]", i));
   for (size_t i = 0; i < resolved.loads.heat.size(); ++i)

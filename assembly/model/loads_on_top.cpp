@@ -22,14 +22,20 @@ constexpr Bearer kDome{"dome", [](const Sheet& sheet) { return sheet.closed; }};
 constexpr Bearer kWall{"wall",
                        [](const Sheet& sheet) { return sheet.thrust_lines == Sheet::ThrustLines::none; }};
 
-[[noreturn]] void refuse_without_tops(const Assembly& assembly, double weight, const char* key) {
+/// "loads.forces: [{block: 6, force: [0, 0, -1e+04]}]": a weight on the highest block.
+std::string force_on_highest(const Assembly& assembly, double weight) {
   const auto highest = std::ranges::max_element(assembly.blocks, {}, [](const Block& b) {
     return b.fixed ? -std::numeric_limits<double>::infinity() : b.centroid.z();
   });
+  return fmt::format("loads.forces: [{{block: {}, force: [0, 0, {:.6g}]}}]",
+                     highest - assembly.blocks.begin(), -weight);
+}
+
+[[noreturn]] void refuse_without_tops(const Assembly& assembly, double weight, const char* key) {
   throw InputError(
       fmt::format("loads.{}: the assembly has no faces of kind top to carry it; give it to the highest block "
-                  "as loads.forces: [{{block: {}, force: [0, 0, {:.6g}]}}]",
-                  key, highest - assembly.blocks.begin(), -weight));
+                  "as {}",
+                  key, force_on_highest(assembly, weight)));
 }
 
 /// Copies of a member share a load evenly. Which of others was meant, no key says.
@@ -64,6 +70,15 @@ std::vector<LoadedFace> tops_of(const Bearer& bearer, const Assembly& assembly, 
 }
 
 }  // namespace
+
+void require_top_for_lantern(const Assembly& assembly, double gravity) {
+  if (!faces_of_kind(assembly, std::array{FaceKind::top}, 0, kLastRing, "").empty()) return;
+  throw InputError(fmt::format(
+      "analysis.limit.parameter: lantern requires faces of kind top to carry it, and the assembly "
+      "has none; write {} and limit.parameter: load, whose factor is then that on the weight of "
+      "the blocks",
+      force_on_highest(assembly, free_weight(assembly, gravity))));
+}
 
 void add_loads_on_top(const Loads& loads, const Assembly& assembly, std::vector<PointForce>* forces) {
   const double g = loads.gravity.norm(), of_blocks = free_weight(assembly, g);

@@ -12,4 +12,7 @@ namespace cupola {
 /// of domes differ: a lantern stands on one.
 void add_loads_on_top(const Loads& loads, const Assembly& assembly, std::vector<PointForce>* forces);
 
+/// Throws InputError if nothing can carry the lantern that a limit analysis seeks. `gravity`: m/s2.
+void require_top_for_lantern(const Assembly& assembly, double gravity);
+
 }  // namespace cupola

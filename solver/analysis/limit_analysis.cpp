@@ -8,6 +8,7 @@
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/files/csv_columns.hpp"
 #include "assembly/model/joint_rule.hpp"
+#include "assembly/model/loads_on_top.hpp"
 #include "assembly/model/thickness.hpp"
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
@@ -224,6 +225,7 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
 }  // namespace
 
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  if (seeks_lantern(scene.analysis)) require_top_for_lantern(assembly, scene.loads.gravity.norm());
   if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
   LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis)};
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;

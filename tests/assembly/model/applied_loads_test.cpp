@@ -5,6 +5,7 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/case/limit_parameter.hpp"
+#include "assembly/model/loads_on_top.hpp"
 #include "tests/assembly/scene.hpp"
 
 namespace cupola::applied_loads_test {
@@ -142,6 +143,28 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
             fmt::format("error: loads.lantern: the assembly has no faces of kind top to carry it; give it to "
                         "the highest block as loads.forces: [{{block: 1, force: [0, 0, {:.6g}]}}]",
                         -0.1 * free_weight(assembly, 9.81)));
+}
+
+// A limit seeks the lantern of an arch, which has no such key: the advice is another limit of the same number.
+TEST(AppliedLoads, ALimitOfALanternRequiresATop) {
+  Assembly assembly = test::two_block_assembly();
+  EXPECT_NO_THROW(require_top_for_lantern(assembly, 10.0));
+  for (FaceKind& kind : assembly.face_kinds)
+    if (kind == FaceKind::top) kind = FaceKind::free;
+  try {
+    require_top_for_lantern(assembly, 10.0);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("analysis.limit.parameter: lantern requires faces of kind top"),
+              std::string::npos)
+        << error.what();
+    EXPECT_NE(
+        std::string(error.what())
+            .find(fmt::format("loads.forces: [{{block: 1, force: [0, 0, {:.6g}]}}] and limit.parameter: load",
+                              -free_weight(assembly, 10.0))),
+        std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace
