@@ -10,6 +10,7 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
+#include "postproc/evaluation/thrust.hpp"
 
 namespace cupola {
 namespace {
@@ -66,7 +67,8 @@ std::vector<ThrustLine> wythe_lines(const Evaluation& e, const ThrustInput& inpu
 /// Tension of courses across a meridian, through their bond alone.
 struct HoopTension {
   double sum = 0.0;     ///< N, of all courses of the stack
-  std::string largest;  ///< the sheet that has most of it
+  std::string largest;  ///< the sheet that has most of it; "": not known
+  bool net = false;     ///< less the compression of other courses
 };
 
 HoopTension hoop_tension(const Evaluation& e, const FrameEvaluation& frame, const Drawn& meridian) {
@@ -116,12 +118,13 @@ void warn_of_hoop_tension(const HoopTension& least, const HoopTension& greatest,
   const double share = 2.0 * std::numbers::pi * tension.sum / width;
   if (!(width > 0.0) || share < kMuch) return;
   e->warnings.push_back(fmt::format(
-      "the range of the thrust counts on hoop tension: at its {} end the courses{} carry {} across "
+      "the range of the thrust counts on hoop tension: at its {} end the courses{} carry {}{} across "
       "a meridian by the friction of their bond, which as radial forces is {:.0f} % of its width. "
       "Masonry cracked along meridians carries none: `bond: {{type: stack}}` gives its range",
       at_least ? "least" : "greatest",
-      e->assembly.sheets.size() > 1 ? ", most of all of " + tension.largest + "," : "",
-      force_text(tension.sum), 100.0 * share));
+      e->assembly.sheets.size() > 1 && !tension.largest.empty() ? ", most of all of " + tension.largest + ","
+                                                                : "",
+      tension.net ? "at least " : "", force_text(tension.sum), 100.0 * share));
 }
 
 }  // namespace
@@ -167,11 +170,13 @@ std::vector<MeridianEvaluation> evaluate_meridians(const Evaluation& e) {
 void add_ends_of_thrust(const ResultsReader& results, Evaluation* e) {
   const std::vector<ForceRange>& ranges = e->summary.ranges;
   const auto thrust = std::find_if(ranges.begin(), ranges.end(), [](const ForceRange& range) {
-    return range.quantity.starts_with("thrust") && (range.min.frame || range.max.frame);
+    return range.quantity.starts_with("thrust");
   });
   if (thrust == ranges.end() || e->meridians.empty()) return;
-  const HoopTension least = add_end(results, thrust->min, &MeridianEvaluation::least_thrust, e),
-                    greatest = add_end(results, thrust->max, &MeridianEvaluation::greatest_thrust, e);
+  HoopTension least = add_end(results, thrust->min, &MeridianEvaluation::least_thrust, e);
+  const HoopTension greatest = add_end(results, thrust->max, &MeridianEvaluation::greatest_thrust, e);
+  if (!thrust->min.frame)  // its state was not kept
+    if (const auto net = net_hoop_tension(*e, thrust->min.value.value_or(0.0))) least = {*net, "", true};
   warn_of_hoop_tension(least, greatest, *thrust, e);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "assembly/model/thrust_joint.hpp"
@@ -19,6 +20,20 @@ std::optional<double> sum_over_supports(const Evaluation& e) {
   double sum = 0.0;
   for (const Reaction& reaction : e.reactions) sum += reaction.outward;
   return above(sum, e.last.joints.floor.force);
+}
+
+/// True if all loads are vertical and joints are all that holds.
+bool only_weighs(const Evaluation& e) {
+  const Loads& loads = e.scene.loads;
+  return !e.scene.joints.have_strength() && e.assembly.ties.empty() && e.scene.ties.pairs.empty() &&
+         e.scene.supports.restraints.empty() && loads.gravity.head<2>().norm() == 0.0 &&
+         std::ranges::all_of(
+             loads.forces,
+             [](const BlockForce& load) { return load.force.head<2>().norm() == 0.0 && !load.moment; }) &&
+         std::ranges::all_of(loads.faces, [](const FaceLoad& load) {
+           return load.pressure == 0.0 && load.traction.head<2>().norm() == 0.0 &&
+                  (!load.fill || load.fill->horizontal == 0.0);
+         });
 }
 
 }  // namespace
@@ -78,6 +93,13 @@ std::optional<double> outward_thrust(const Evaluation& e) {
   if (pushing.empty()) return sum_over_supports(e);
   if (e.rings.empty()) return std::nullopt;
   return thrusts_of(e, *pushing.front()).front().force;
+}
+
+std::optional<double> net_hoop_tension(const Evaluation& e, double thrust) {
+  if (!std::isfinite(thrust) || thrust >= 0.0 || !only_weighs(e)) return std::nullopt;
+  const std::vector<const Sheet*> pushing = pushing_sheets(e);
+  if (pushing.size() != 1 || !pushing.front()->closed) return std::nullopt;
+  return -thrust / (2.0 * std::numbers::pi);
 }
 
 }  // namespace cupola

@@ -35,4 +35,8 @@ std::vector<Thrust> thrusts_of(const Evaluation& evaluation, const Sheet& sheet)
 /// its lowest course.
 std::optional<double> outward_thrust(const Evaluation& evaluation);
 
+/// N, the hoop tension of all courses less their compression where the outward thrust is negative: rings that
+/// only weigh pull with it over 2 pi. None of a positive thrust, and with other loads, ties or strength.
+std::optional<double> net_hoop_tension(const Evaluation& evaluation, double thrust);
+
 }  // namespace cupola

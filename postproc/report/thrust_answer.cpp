@@ -138,20 +138,6 @@ std::string level_text(const Evaluation& e, const Sheet& sheet, bool differ) {
                      force_text(springing->radial_thrust));
 }
 
-/// True if all loads are vertical and joints are all that holds.
-bool only_weighs(const Evaluation& e) {
-  const Loads& loads = e.scene.loads;
-  return !e.scene.joints.have_strength() && e.assembly.ties.empty() && e.scene.ties.pairs.empty() &&
-         e.scene.supports.restraints.empty() && loads.gravity.head<2>().norm() == 0.0 &&
-         std::ranges::all_of(
-             loads.forces,
-             [](const BlockForce& load) { return load.force.head<2>().norm() == 0.0 && !load.moment; }) &&
-         std::ranges::all_of(loads.faces, [](const FaceLoad& load) {
-           return load.pressure == 0.0 && load.traction.head<2>().norm() == 0.0 &&
-                  (!load.fill || load.fill->horizontal == 0.0);
-         });
-}
-
 /// Names of the members whose courses interlock.
 std::vector<std::string> interlocked(const std::vector<const Member*>& members) {
   std::vector<std::string> names;
@@ -162,11 +148,12 @@ std::vector<std::string> interlocked(const std::vector<const Member*>& members) 
   return names;
 }
 
-/// An inward thrust on rings that only weigh: they pull with it over 2 pi, by the friction of their bond.
-std::string pull_of_rings(const Geometry& geometry, double inwards) {
+/// An inward thrust on rings that only weigh: they pull with it by the friction of their bond.
+std::string pull_of_rings(const Geometry& geometry, double tension) {
   std::string text = fmt::format(
-      ", where the courses hold together by a hoop tension of {} in all, through the friction of their bond",
-      force_text(inwards / (2.0 * std::numbers::pi)));
+      ", where the courses hold together by a hoop tension of {} net of compression, through the "
+      "friction of their bond",
+      force_text(tension));
   const std::vector<const Member*> members = members_of(geometry);
   const std::vector<std::string> bonded = interlocked(members);
   if (geometry.imported || bonded.empty()) return text;
@@ -199,8 +186,8 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
   }
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
-    if (std::isfinite(least(range)) && pushing.size() == 1 && pushing.front()->closed && only_weighs(e))
-      detail += pull_of_rings(e.scene.geometry, -least(range));
+    if (const auto tension = net_hoop_tension(e, least(range)))
+      detail += pull_of_rings(e.scene.geometry, *tension);
   }
   return {"Outward thrust",
           fmt::format("{} to {}{}", end_text(range.min, least(range), range),
