@@ -73,11 +73,12 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
 }
 
 /// Reads the case with one member's settings; `source` names the section that gives them.
-void check_member(const std::string& path, const char* source, const std::vector<std::string>& settings) {
+void check_member(const std::string& path, const FileLocation& where, const char* source,
+                  const std::vector<std::string>& settings) {
   try {
     read_one_case(path, settings);
   } catch (const InputError& error) {
-    throw InputError(FileLocation{path}, fmt::format("{}: {}", source, error.what()));
+    throw InputError(where, fmt::format("{}: {}", source, error.what()));
   }
 }
 
@@ -88,7 +89,7 @@ void check_samples(const std::string& path, const std::vector<std::string>& sett
   const auto check = [&](const std::vector<std::string>& own) {
     std::vector<std::string> all = settings;
     all.insert(all.end(), own.begin(), own.end());
-    check_member(path, source, all);
+    check_member(path, {path}, source, all);
   };
   for (size_t k = 0; k < samples.keys.size(); ++k) {
     // Admissible numbers form an interval, so that the least and the greatest stand for all.
@@ -112,9 +113,10 @@ Case read_case(const std::string& path, const std::vector<std::string>& set_opti
     std::erase(the_case.inputs, the_case.sample_file.file);
     return the_case;
   }
-  for (const SweptKey& swept : the_case.sweep)
-    for (const std::string& value : swept.values)
-      check_member(path, "sweep", {fmt::format("{}={}", swept.key, value)});
+  for (size_t i = 0; i < the_case.sweep.size(); ++i)
+    for (const std::string& value : the_case.sweep[i].values)
+      check_member(path, place_of(*the_case.keys, fmt::format("sweep[{}].key", i)), "sweep",
+                   {fmt::format("{}={}", the_case.sweep[i].key, value)});
   if (!the_case.sample_file.file.empty())
     check_samples(path, {}, "sweep", read_samples(the_case.sample_file.file));
   if (the_case.ensemble) check_samples(path, {}, "ensemble", draw_samples(*the_case.ensemble));

@@ -180,7 +180,7 @@ void declare_accuracy(Section& s, Analysis& analysis) {
 
 void expect_bracket(const Section& s, const LimitSearch& limit) {
   if (limit.parameter == LimitSearch::Parameter::tilt)
-    s.expect({"limit.high", limit.high, "deg", std::numbers::pi / 2, 90.0, kRadians,
+    s.expect({"limit.high", limit.high, "deg", std::numbers::pi / 2, 90.0, "in radians? A tilt is in degrees",
               "a wall that leans by more than 90 deg lies"});
   if (limit.parameter == LimitSearch::Parameter::acceleration)
     s.expect({"limit.high", limit.high, "g", 0.0, 5.0, "",

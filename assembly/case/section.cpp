@@ -106,7 +106,11 @@ void Section::retired(const std::string& key, const std::string& instead) const 
 
 void Section::refuse(const std::string& key, const std::string& advice) const {
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
-  if (node) fail(key, *node, advice);
+  if (!node) return;
+  const std::string& file = node->where.file;
+  const bool inherited = file != case_file_ && file.ends_with(".yaml");
+  fail(key, *node,
+       inherited ? fmt::format("{}; it is inherited: write {}: null", advice, path_of(key)) : advice);
 }
 
 void Section::open(const std::string& key, const std::string& meaning, const DeclareKeys& declare) {

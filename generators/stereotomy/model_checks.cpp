@@ -318,8 +318,8 @@ std::vector<std::string> warnings_of(const ModelReport& r, std::span<const Block
   std::vector<std::string> warnings;
   const Names names{origins};
   if (r.blocks_without_joint.size() == 1)
-    warnings.push_back(
-        fmt::format("block {} touches no other block", names.name(r.blocks_without_joint.front())));
+    warnings.push_back(fmt::format("block {} has no joint; supports have none with each other",
+                                   names.name(r.blocks_without_joint.front())));
   if (r.blocks_without_joint.size() > 1)
     warnings.push_back(fmt::format("{} have no joint, the first is {}",
                                    counted(r.blocks_without_joint.size(), "block"),

@@ -68,5 +68,19 @@ TEST(Case, BundledCasesThatAreNamedAsFilesAreSuggested) {
   EXPECT_EQ(message("my_dome.yaml").find("cupola:"), std::string::npos);
 }
 
+// Nobody edits a case that comes with Cupola.
+TEST(BundledCases, AKeyThatMustGoIsRemovedWhereItIsInherited) {
+  const ScratchFolder scratch;
+  try {
+    read_case(scratch.write("mine.yaml",
+                            "extends: cupola:arch\ngeometry: {wythes: [{name: a, thickness: 0.3}]}\n"));
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_TRUE(
+        std::string(error.what()).ends_with("; it is inherited: write geometry.surface.thickness: null"))
+        << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace cupola::bundled_test

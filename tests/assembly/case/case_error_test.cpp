@@ -103,13 +103,14 @@ const BadCase kBadCases[] = {
     {"NegativeBlock", kGood + "loads: {forces: [{block: -1}]}\n",
      "bad.yaml:6:26: error: loads.forces[0].block = -1: must be >= 0"},
     {"MisspeltSweptKey", kGood + "sweep: [{key: joints.frction, values: [0.1]}]\n",
-     "bad.yaml: error: sweep: --set joints.frction=0.1: error: joints.frction: unknown key; did you mean "
+     "bad.yaml:6:15: error: sweep: --set joints.frction=0.1: error: joints.frction: unknown key; did you "
+     "mean "
      "friction?"},
     {"KeySweptTwice",
      kGood + "sweep: [{key: joints.friction, values: [0.1]}, {key: joints.friction, values: [0.2]}]\n",
      "bad.yaml:6:8: error: sweep = [...]: names a key twice"},
     {"SweptValueOutOfRange", kGood + "sweep: [{key: joints.friction, values: [0.1, -2]}]\n",
-     "bad.yaml: error: sweep: --set joints.friction=-2: error: joints.friction = -2: must be >= 0"},
+     "bad.yaml:6:15: error: sweep: --set joints.friction=-2: error: joints.friction = -2: must be >= 0"},
     {"BundledCaseMisspelt", "extends: cupola:dome_circlar\n",
      "bad.yaml:1:10: error: cupola:dome_circlar: no bundled case has this name; did you mean "
      "cupola:dome_circular?"},
