@@ -20,9 +20,9 @@ struct FastPair {
 };
 
 /// Contacts are sought as far from a block as it moves in the step, but not farther than its radius
-/// (ContactDetector::update()), and at the configuration after the share `middle` of the step. Of the pairs whose
-/// boxes meet on their way, and which start farther apart or are beyond half the thickness of the thinner block
-/// by then, the one that demands the shortest step. None: contacts of all pairs are found.
+/// (ContactDetector::update()), and at the configuration after the share `middle` of the step. Of the pairs
+/// whose boxes meet on their way, and which start farther apart or are beyond half the thickness of the
+/// thinner block by then, the one that demands the shortest step. None: contacts of all pairs are found.
 ///
 /// `from`, `to`: poses at the ends of a step of h (s).
 std::optional<FastPair> fast_pair(const CollisionModel& shapes, std::span<const Pose> from,

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kStep = 0.1;  // s
 
-/// A fixed plate 0.1 m thick, whose top is at z = 0, and a cube of 0.2 m whose lower face starts `above` it and
-/// moves by `way`.
+/// A fixed plate 0.1 m thick, whose top is at z = 0, and a cube of 0.2 m whose lower face starts `above` it
+/// and moves by `way`.
 std::optional<FastPair> falling(double above, const Vec3& way, double middle) {
   const Assembly assembly =
       testing::make_boxes({{.center = {0, 0, -0.05}, .size = {4, 4, 0.1}, .fixed = true},
