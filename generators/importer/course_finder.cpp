@@ -172,7 +172,7 @@ void CourseFinder::check(Courses* found) const {
   add("stones that meet the course below by their sides, too", leaning);
 }
 
-/// Orders the stones along their rings and chains; true for one ring.
+/// Orders the stones along their rings and chains; true for one ring, of stones with two neighbours each.
 bool CourseFinder::put_in_order(const std::vector<int>& course, std::vector<int>* stones) const {
   std::vector<int> starts, ordered;
   for (const int b : *stones)
@@ -182,7 +182,6 @@ bool CourseFinder::put_in_order(const std::vector<int>& course, std::vector<int>
     return std::array{p.x(), p.y(), p.z()};
   };
   std::ranges::sort(starts, {}, west);
-  const size_t num_ends = starts.size();
   starts.insert(starts.end(), stones->begin(), stones->end());  // of rings, which have no ends
   std::set<int> done;
   int pieces = 0;
@@ -199,7 +198,8 @@ bool CourseFinder::put_in_order(const std::vector<int>& course, std::vector<int>
     ordered.insert(ordered.end(), chain.begin(), chain.end());
   }
   *stones = std::move(ordered);
-  return pieces == 1 && num_ends == 0 && stones->size() > 2;
+  const auto has_two = [&](int b) { return beside(course, b).size() == 2; };
+  return pieces == 1 && stones->size() > 2 && std::ranges::all_of(*stones, has_two);
 }
 
 }  // namespace cupola

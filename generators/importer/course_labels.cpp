@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 namespace cupola {
@@ -67,13 +68,20 @@ class Labels {
     return outward ? Vec3::UnitZ().cross(*outward) : along_wall_;
   }
 
-  /// The directions along and out of a wall: along the course of most stones, in a pier of single stones along
-  /// the longer side of all; out of it towards +y, of a wall along y towards +x.
+  /// The directions along and out of a wall: along the course of most stones, whose leaves lie side by side, in
+  /// a pier of single stones along the longer side of all; out of it towards +y, of a wall along y towards +x.
   void set_wall() {
     const std::vector<int>& most = *std::ranges::max_element(courses_.stones, {}, &std::vector<int>::size);
     if (most.size() > 1) {
-      along_wall_ = (assembly_.blocks[most.back()].centroid - assembly_.blocks[most.front()].centroid)
-                        .stableNormalized();
+      Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+      for (const int b : most) mean += centroid_of(b).head<2>() / static_cast<double>(most.size());
+      Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
+      for (const int b : most) {
+        const Eigen::Vector2d r = centroid_of(b).head<2>() - mean;
+        spread += r * r.transpose();
+      }
+      along_wall_.head<2>() = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvectors().col(1);
+      along_wall_.z() = 0.0;
     } else {
       Eigen::AlignedBox3d box;
       for (const Part& part : assembly_.parts)

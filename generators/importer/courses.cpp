@@ -14,9 +14,10 @@
 namespace cupola {
 namespace {
 
-constexpr double kOnAxis = 1e-9;     // of the size of the model: an axis nearer the z axis is the z axis
-constexpr double kRounding = 1e-12;  // rad
-constexpr double kInLine = 1e-2;     // of the size of the model: the radius of its circle is beyond 12 sizes
+constexpr double kOnAxis = 1e-9;      // of the size of the model: an axis nearer the z axis is the z axis
+constexpr double kRounding = 1e-12;   // rad
+constexpr double kJointInWall = 0.1;  // of the size of a stone: a hole not wider is a joint
+constexpr double kInLine = 1e-2;      // of the size of the model: the radius of its circle is beyond 12 sizes
 
 /// Area of the faces of free blocks on these supports (m2), and its centroid.
 struct Footing {
@@ -46,7 +47,26 @@ double size_of(const Assembly& assembly) {
   return box.sizes().maxCoeff();
 }
 
-/// True if each course is a ring about the axis, or a single stone above all others.
+/// The width of the hole about the axis over the size of the stone beside it; negative in masonry.
+double hole_about(const Vec3& origin, const std::vector<int>& stones, const Assembly& assembly) {
+  double nearest = std::numeric_limits<double>::infinity(), size = 0.0;  // m
+  for (const Part& part : assembly.parts) {
+    if (std::ranges::find(stones, part.block) == stones.end()) continue;
+    const Block& block = assembly.blocks[part.block];
+    const Vec3 axis(origin.x(), origin.y(), block.centroid.z());
+    double outside = -std::numeric_limits<double>::infinity();
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const Plane plane = polygon_plane(face_points(assembly, f));
+      outside = std::max(outside, plane.normal.dot(axis) - plane.offset);
+    }
+    if (outside < nearest) size = std::cbrt(block.volume);
+    nearest = std::min(nearest, outside);
+  }
+  return 2.0 * nearest / size;
+}
+
+/// True if each course is a ring about the axis, or a single stone above all others. Two leaves of two stones
+/// are a ring, too, but about a joint.
 bool are_rings(const Courses& courses, const Assembly& assembly, const Vec3& origin) {
   if (!courses.closed.front()) return false;
   for (size_t k = 0; k < courses.stones.size(); ++k) {
@@ -60,7 +80,9 @@ bool are_rings(const Courses& courses, const Assembly& assembly, const Vec3& ori
     }
     if (stones.size() > 1 && std::abs(turn) < std::numbers::pi) return false;
   }
-  return true;
+  return std::ranges::any_of(courses.stones, [&](const std::vector<int>& stones) {
+    return hole_about(origin, stones, assembly) > kJointInWall;
+  });
 }
 
 /// True if stones of a course lead from joint to joint about the axis, as rings in layers and those beside
@@ -86,30 +108,13 @@ bool lead_about(const Vec3& origin, const std::vector<int>& stones, const Course
   return false;
 }
 
-/// True if the axis is in the open: the hole about it is wider than the stone beside it, unlike the joint or
-/// the cavity between two leaves of a wall.
-bool is_in_the_open(const Vec3& origin, const std::vector<int>& stones, const Assembly& assembly) {
-  double nearest = std::numeric_limits<double>::infinity(), size = 0.0;  // m
-  for (const Part& part : assembly.parts) {
-    if (std::ranges::find(stones, part.block) == stones.end()) continue;
-    const Block& block = assembly.blocks[part.block];
-    const Vec3 axis(origin.x(), origin.y(), block.centroid.z());
-    double outside = -std::numeric_limits<double>::infinity();
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      const Plane plane = polygon_plane(face_points(assembly, f));
-      outside = std::max(outside, plane.normal.dot(axis) - plane.offset);
-    }
-    if (outside < nearest) size = std::cbrt(block.volume);
-    nearest = std::min(nearest, outside);
-  }
-  return 2.0 * nearest > size;
-}
-
-/// True if the courses are rings, in layers or with openings, about the axis.
+/// True if the courses are rings, in layers or with openings, about the axis. The hole is wider than a stone,
+/// unlike the cavity between two leaves of a wall.
 bool surround(const Vec3& origin, const Courses& courses, const CourseFinder& finder,
               const Assembly& assembly) {
   return std::ranges::any_of(courses.stones, [&](const std::vector<int>& stones) {
-    return lead_about(origin, stones, courses, finder, assembly) && is_in_the_open(origin, stones, assembly);
+    return lead_about(origin, stones, courses, finder, assembly) &&
+           hole_about(origin, stones, assembly) > 1.0;
   });
 }
 
@@ -128,6 +133,26 @@ bool surround_an_axis(const std::vector<Footing>& footings, double size) {
   return std::ranges::any_of(from_first, [&](const Eigen::Vector2d& d) {
     return std::abs(line.x() * d.y() - line.y() * d.x()) > kInLine * size;
   });
+}
+
+/// True if stones lead from each group of supports to all others.
+bool are_connected(const std::vector<std::vector<int>>& groups, const JointGraph& graph,
+                   const Assembly& assembly) {
+  std::set<int> known;
+  for (const int support : groups.front())
+    for (const int first : graph.neighbours[support]) {
+      if (assembly.blocks[first].fixed || !known.insert(first).second) continue;
+      const std::vector<int> distance = graph.distances(assembly, {first});
+      const auto is_reached = [&](int b) { return distance[b] != JointGraph::kFar; };
+      for (const int b : graph.neighbours[support])
+        if (is_reached(b)) known.insert(b);
+      if (std::ranges::all_of(groups, [&](const std::vector<int>& group) {
+            return std::ranges::any_of(
+                group, [&](int s) { return std::ranges::any_of(graph.neighbours[s], is_reached); });
+          }))
+        return true;
+    }
+  return false;
 }
 
 /// True if the stones on these supports are those of the last course.
@@ -187,7 +212,8 @@ CourseReport set_courses(std::span<const FacePair> joints, std::span<const int> 
     sheet.turn = 0.0;
     sheet.origin = axis.value_or(middle);
     snap_to_z_axis(*assembly, &sheet);
-    const bool on_springers = surround_an_axis(footings, size_of(*assembly));
+    const bool on_springers =
+        surround_an_axis(footings, size_of(*assembly)) && are_connected(groups, graph, *assembly);
     sheet.closed =
         courses.refusal.empty() && (are_rings(courses, *assembly, sheet.origin) ||
                                     (!on_springers && surround(sheet.origin, courses, finder, *assembly)));

@@ -238,6 +238,30 @@ TEST(Courses, OfAWallOnThreeFootingsHaveNoAxis) {
   EXPECT_TRUE(wall.sheets.empty() || wall.sheets.front().thrust_lines == Sheet::ThrustLines::none);
 }
 
+// Two portals side by side have no axis between them; under one slab they are a vault on four springers.
+TEST(Courses, OfArchesSideBySideHaveNoAxis) {
+  std::vector<RawBlock> blocks;
+  for (const double y : {0.0, 5.0}) {
+    for (const double x : {0.0, 2.0})
+      for (const double z : {0.0, 1.0})
+        blocks.push_back(
+            prism({{x, z}, {x + 1, z}, {x + 1, z + 1}, {x, z + 1}}, 1.0, fmt::format("{} {} {}", x, y, z)));
+    blocks.push_back(prism({{0, 2}, {3, 2}, {3, 3}, {0, 3}}, 1.0, fmt::format("lintel {}", y)));
+    for (size_t b = blocks.size() - 5; b < blocks.size(); ++b)
+      for (Vec3& p : blocks[b].mesh.vertices) p.y() += y;
+  }
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder("side_by_side") + "/model.obj";
+  scene.geometry.imported->fixed_by = SupportRule::lowest;
+  for (const auto expected : {Sheet::ThrustLines::none, Sheet::ThrustLines::radial}) {
+    write_text_atomically(scene.geometry.imported->path, obj_of(blocks));
+    const Assembly found = generate(scene);
+    EXPECT_EQ(found.sheets.empty() ? Sheet::ThrustLines::none : found.sheets.front().thrust_lines, expected);
+    blocks.push_back(prism({{0, 3}, {3, 3}, {3, 4}, {0, 4}}, 6.0, "slab"));
+  }
+}
+
 /// The outside of each stone is that of the generated one, and opposite sides of the model have opposite ones.
 void expect_same_outside(const Assembly& original, const Assembly& found) {
   constexpr double kRounding = 1e-9;  // of areas, from coordinates that were written with 17 digits
@@ -297,6 +321,35 @@ TEST(Courses, OfAWallInTwoLeavesAreNoRings) {
   for (const FaceKind skin : {FaceKind::intrados, FaceKind::extrados}) {
     const std::vector<double> expected = areas(original, skin), is = areas(found, skin);
     for (size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(is[k], expected[k], 1e-9) << k;  // 17 digits
+  }
+}
+
+// A walk from stone to stone leads along one leaf and back along the other, about the joint between them.
+TEST(Courses, OfTwoLeavesStoneByStoneAreNoRings) {
+  for (const int length : {2, 3}) {
+    SCOPED_TRACE(length);
+    std::vector<RawBlock> stones{prism({{-1, -0.3}, {2.5, -0.3}, {2.5, 0}, {-1, 0}}, 0.4, "ground")};
+    for (int k = 0; k < 3; ++k)
+      for (const double leaf : {0.0, 0.2})
+        for (int i = 0; i < length; ++i) {
+          const double x = 0.5 * i, z = 0.25 * k;
+          stones.push_back(prism({{x, z}, {x + 0.5, z}, {x + 0.5, z + 0.25}, {x, z + 0.25}}, 0.2,
+                                 fmt::format("{}_{}", k, stones.size())));
+          for (Vec3& p : stones.back().mesh.vertices) p.y() += leaf;
+        }
+    Case scene;
+    scene.geometry.imported.emplace();
+    scene.geometry.imported->path = test::fresh_folder("two_leaves") + "/wall.obj";
+    scene.geometry.imported->supports = {"ground"};
+    std::string text = obj_of(stones);
+    for (int k = 0; k < 3 && length > 2; ++k)  // stones with three neighbours: the file numbers the courses
+      text.insert(text.find(fmt::format("o {}_", k)), fmt::format("g course {}\n", k));
+    write_text_atomically(scene.geometry.imported->path, text);
+    GenerateReport report;
+    const Assembly found = generate(scene, &report);
+    EXPECT_EQ(report.import->courses.kind, "a wall") << report.import->courses.refusal;
+    EXPECT_EQ(found.num_rings, 3);
+    expect_one_outside(found);
   }
 }
 
