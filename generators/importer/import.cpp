@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
+#include "assembly/model/block_names.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "assembly/model/polygon_parts.hpp"
 #include "generators/decomposition/decompose.hpp"
@@ -120,6 +122,22 @@ double unusual_size(const ImportedBlocks& source, const ImportReport& report) {
   return source.metres_per_unit || (size >= kSmallest && size <= kLargest) ? 0.0 : size;
 }
 
+/// The warning of free blocks that are drawn as several solids, as all stones in one object are; empty: none.
+std::string text_of_solids(const std::vector<int>& solids, const Assembly& assembly) {
+  std::vector<int> several;
+  int count = 0;
+  for (int b = 0; b < static_cast<int>(solids.size()); ++b)
+    if (solids[b] > 1 && !assembly.blocks[b].fixed) {
+      several.push_back(b);
+      count += solids[b];
+    }
+  if (several.empty()) return {};
+  return fmt::format(
+      "{} {}: {} separate solids move as {}; unless these are joined, draw each as a block of its own",
+      several.size() == 1 ? "block" : "blocks", block_labels(assembly, several), count,
+      counted(several.size(), "rigid stone"));
+}
+
 std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
   std::vector<RawTie> rows;
   if (!source.springs.empty()) rows = read_springs(source.springs);
@@ -187,6 +205,7 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
   fix_supports(source, raw, *report, &assembly);
   for (size_t b = 0; b < raw.size(); ++b)
     report->uses_material |= !assembly.blocks[b].fixed && !raw[b].density;
+  report->separate_solids = text_of_solids(report->solids, assembly);
   report->doubt_of_axes = doubt_of_axes(source, *report, assembly);
   assembly.ties = read_ties(source, raw);
   report->ties = static_cast<int>(assembly.ties.size());

@@ -31,6 +31,7 @@ std::vector<std::string> warnings_of(const ImportReport& r) {
     warnings.push_back(fmt::format(
         "the blocks are {:.2g} m in size; if the file is not in metres, set geometry.import.metres_per_unit",
         r.unusual_size));
+  if (!r.separate_solids.empty()) warnings.push_back(r.separate_solids);
   if (!r.doubt_of_axes.empty()) warnings.push_back(r.doubt_of_axes);
   return warnings;
 }

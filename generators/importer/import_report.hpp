@@ -19,6 +19,8 @@ struct ImportReport {
   std::vector<BlockOrigin> origins;                                  ///< per block of the assembly
   std::vector<int> parts;                                            ///< number of convex parts per block
   int already_convex = 0, by_planes = 0, as_prisms = 0, by_nef = 0;  ///< surfaces per method
+  std::vector<int> solids;      ///< per block, that its surface bounds; 1 for a block of given parts
+  std::string separate_solids;  ///< the free blocks with several of them; empty: none
   Flatness flatness;
   double facet_angle = 0.0, snap = 0.0;                          ///< in force: rad, m
   double largest_gap = std::numeric_limits<double>::infinity();  ///< m, that a chosen `snap` closes

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/disjoint_sets.hpp"
 #include "generators/importer/mesh_repair.hpp"
 #include "generators/importer/snap_facets.hpp"
 
@@ -18,12 +20,29 @@ namespace {
 constexpr double kSnapPerWarp = 4.0;    // two faces, each warped to both sides of its plane
 constexpr double kLargestError = 0.01;  // of the smallest block: as the default of contact.margin
 
+/// Number of its outer surfaces; those of cavities have a negative volume.
+int count_solids(const TriangleMesh& mesh) {
+  const std::vector<std::array<int, 3>> neighbours = triangle_neighbours(mesh);
+  DisjointSets surfaces(neighbours.size());
+  for (size_t t = 0; t < neighbours.size(); ++t)
+    for (const int next : neighbours[t]) surfaces.join(static_cast<int>(t), next);
+  std::map<int, double> volume;
+  for (int t = 0; t < static_cast<int>(neighbours.size()); ++t) {
+    const int root = surfaces.root(t);
+    const Vec3& origin = mesh.corner(root, 0);
+    volume[root] +=
+        (mesh.corner(t, 0) - origin).dot((mesh.corner(t, 1) - origin).cross(mesh.corner(t, 2) - origin));
+  }
+  return static_cast<int>(std::ranges::count_if(volume, [](const auto& v) { return v.second > 0.0; }));
+}
+
 void append_surfaces(const RawBlock& raw, int block, Surfaces* surfaces, ImportReport* report) {
   constexpr double kWeld = 1e-6;  // of the block size: vertices closer than this are merged
   if (raw.point_parts.empty()) {
     int doubled = 0;
     surfaces->meshes.push_back(repair_mesh(raw, kWeld, &doubled));
     report->doubled_faces += doubled;
+    report->solids.back() = count_solids(surfaces->meshes.back());
     surfaces->block.push_back(block);
   }
   for (const auto& points : raw.point_parts) {
@@ -68,6 +87,7 @@ Surfaces repair_all(const std::vector<RawBlock>& blocks, ImportReport* report) {
   std::vector<std::string> defects;
   FileLocation first;
   for (size_t b = 0; b < blocks.size(); ++b) {
+    report->solids.push_back(1);
     try {
       append_surfaces(blocks[b], static_cast<int>(b), &surfaces, report);
     } catch (const InputError& defect) {

@@ -130,6 +130,26 @@ TEST_F(Import, DropsDoubledFacesWithAWarning) {
             std::string::npos);
 }
 
+// Two stones in one object, one of them with a cavity, which is no solid. Supports may be drawn as one.
+TEST_F(Import, WarnsOfSeparateSolidsThatMoveAsOneStone) {
+  const auto without_name = [](const std::string& box) { return box.substr(box.find('\n') + 1); };
+  const std::string cavity =
+      "v 0.4 0.4 0.4\nv 0.6 0.4 0.4\nv 0.4 0.6 0.4\nv 0.4 0.4 0.6\nf 17 18 19\nf 17 20 18\nf 17 19 20\nf 18 "
+      "20 19\n";
+  ImportedBlocks source;
+  source.path = write("joined.obj", obj_box("a", 0, 0, 1) + without_name(obj_box("", 0, 2, 9)) + cavity);
+  ImportReport report;
+  import_blocks(source, 2000.0, &report);
+  EXPECT_EQ(report.solids, std::vector<int>{2});
+  EXPECT_NE(fmt::format("{}", fmt::join(warnings_of(report), "|"))
+                .find("block a: 2 separate solids move as 1 rigid stone"),
+            std::string::npos);
+  source.supports = {"a"};
+  ImportReport of_support;
+  import_blocks(source, 2000.0, &of_support);
+  EXPECT_EQ(of_support.separate_solids, "");
+}
+
 // A box of 1 m drawn in millimetres, and one of 2 km: nobody can know, so the unit is asked for.
 TEST_F(Import, AsksForTheUnitOfModelsThatAreNoStructures) {
   std::string large = obj_box("a", 0, 0, 1);
