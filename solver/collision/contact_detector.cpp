@@ -49,20 +49,53 @@ bool same_pose(const Pose& p, const Pose& q) {
   return p.p_WB == q.p_WB && p.q_WB.coeffs() == q.q_WB.coeffs();
 }
 
+/// Contacts of a part of block a with one of block b by face clipping.
+struct PartContacts {
+  int a = 0, b = 0;
+  std::vector<JointPatch> faces, narrow;  ///< overlaps of faces; those narrower than min_width
+};
+
+/// Adds overlaps narrower than min_width that continue a wider one of the same two blocks: the cuts that
+/// divide stones into parts leave such strips at the border of a bed, where hinges form.
+void add_narrow_pieces(double tolerance, std::vector<PartContacts>* pairs) {
+  if (std::ranges::all_of(*pairs, [](const PartContacts& pair) { return pair.narrow.empty(); })) return;
+  std::vector<JointPatch> wide;
+  for (const PartContacts& pair : *pairs) wide.insert(wide.end(), pair.faces.begin(), pair.faces.end());
+  for (PartContacts& pair : *pairs)
+    for (JointPatch& piece : pair.narrow)
+      for (const JointPatch& p : wide) {
+        piece.kind = p.kind;  // the face of a thin part, which makes no joint by itself, has none
+        piece.ring = p.ring;
+        if (!coplanar(p, piece, tolerance)) continue;
+        pair.faces.push_back(std::move(piece));
+        break;
+      }
+}
+
 /// All patches between two blocks by face clipping.
 std::vector<JointPatch> clip_blocks(const CollisionModel& model, int block_a, int block_b,
                                     const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& options) {
-  std::vector<JointPatch> patches;
+  const double tolerance = 10.0 * options.tolerance;
+  const auto is_divided = [&](int b) { return model.part_start[b + 1] - model.part_start[b] > 1; };
+  const bool divided = is_divided(block_a) || is_divided(block_b);
+  std::vector<PartContacts> pairs;
   for (int a = model.part_start[block_a]; a < model.part_start[block_a + 1]; ++a) {
     for (int b = model.part_start[block_b]; b < model.part_start[block_b + 1]; ++b) {
       if (separated_by_face(model, a, b, pose_ab, options.margin)) continue;
-      const std::vector<JointPatch> faces = clip_opposed_faces(model, a, b, pose_ab, options);
-      patches.insert(patches.end(), faces.begin(), faces.end());
-      if (!faces.empty()) continue;
-      if (const auto edge = find_edge_contact(model, a, b, pose_ab, options)) patches.push_back(*edge);
+      PartContacts pair{a, b, {}, {}};
+      pair.faces = clip_opposed_faces(model, a, b, pose_ab, options, divided ? &pair.narrow : nullptr);
+      pairs.push_back(std::move(pair));
     }
   }
-  merge_coplanar(&patches, 10.0 * options.tolerance);
+  add_narrow_pieces(tolerance, &pairs);
+  std::vector<JointPatch> patches;
+  for (const PartContacts& pair : pairs) {
+    patches.insert(patches.end(), pair.faces.begin(), pair.faces.end());
+    if (!pair.faces.empty()) continue;
+    if (const auto edge = find_edge_contact(model, pair.a, pair.b, pose_ab, options))
+      patches.push_back(*edge);
+  }
+  merge_coplanar(&patches, tolerance);
   drop_held_edges(options, &patches);
   return patches;
 }

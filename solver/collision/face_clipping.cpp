@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
 #include "solver/collision/separating_axis.hpp"
 
 namespace cupola {
@@ -16,10 +17,10 @@ struct MovedFace {
 };
 
 /// Cheap necessary conditions of a face contact: the gap can be within the margin, the depth can be below the
-/// width, and face b can reach farther than min_width inside every edge of face a.
+/// width, and face b can reach farther than `width` (m) inside every edge of face a.
 bool may_touch(const CollisionModel& model, const CollisionFace& a, const CollisionFace& b,
                const MovedFace& moved_b, const Eigen::Isometry3d& pose_ab, const Vec3& normal,
-               const NarrowPhaseOptions& options) {
+               const NarrowPhaseOptions& options, double width) {
   const Vec3 offset = moved_b.centroid - a.centroid;
   const double gap = normal.dot(offset);
   const double tilt = (a.normal + moved_b.normal).norm();
@@ -38,7 +39,7 @@ bool may_touch(const CollisionModel& model, const CollisionFace& a, const Collis
     const double origin = inward.dot(corners_a[i] - pose_ab.translation());
     double height = -std::numeric_limits<double>::infinity();
     for (const Vec3& x : corners_b) height = std::max(height, inward_b.dot(x) - origin);
-    if (height < (options.min_width - slant) * edge.norm()) return false;
+    if (height < (width - slant) * edge.norm()) return false;
   }
   return true;
 }
@@ -143,7 +144,10 @@ bool separated_by_face(const CollisionModel& model, int part_a, int part_b, cons
 
 std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part_a, int part_b,
                                            const Eigen::Isometry3d& pose_ab,
-                                           const NarrowPhaseOptions& options) {
+                                           const NarrowPhaseOptions& options,
+                                           std::vector<JointPatch>* narrow) {
+  NarrowPhaseOptions any_width = options;
+  if (narrow) any_width.min_width *= kNoWidth;
   const CollisionPart& shape_a = model.parts[part_a];
   const CollisionPart& shape_b = model.parts[part_b];
   std::vector<MovedFace> moved_faces;
@@ -159,16 +163,21 @@ std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part
       const MovedFace& moved_b = moved_faces[i];
       if (b.kind == FaceKind::internal || a.normal.dot(moved_b.normal) > opposed) continue;
       const Vec3 normal = (a.normal - moved_b.normal).normalized();
-      if (!may_touch(model, a, b, moved_b, pose_ab, normal, options)) continue;
+      if (!may_touch(model, a, b, moved_b, pose_ab, normal, options, any_width.min_width)) continue;
       for (const CollisionFace& of_a : model.open_pieces(a))
         for (const CollisionFace& of_b : model.open_pieces(b)) {
           JointPatch patch = clip_faces(model, of_a, of_b, pose_ab, normal, options);
-          const double width = polygon_width(patch.outline());
-          if (patch.min_gap > options.margin || width < options.min_width || -patch.min_gap > width) continue;
+          double width = polygon_width(patch.outline());
+          if (narrow && width < options.min_width) {
+            patch = clip_faces(model, of_a, of_b, pose_ab, normal, any_width);
+            width = polygon_width(patch.outline());
+          }
+          if (patch.min_gap > options.margin || width < any_width.min_width || -patch.min_gap > width)
+            continue;
           patch.part_a = part_a;
           patch.part_b = part_b;
           classify(shape_a, a.kind, shape_b, b.kind, &patch);
-          patches.push_back(std::move(patch));
+          (width < options.min_width ? *narrow : patches).push_back(std::move(patch));
         }
     }
   }

@@ -16,9 +16,12 @@ namespace cupola {
 ///   differ by less than min_width times the difference in tilt, it is the one with the least tilt.
 /// - Interpenetrating faces touch only if no face normal of either part shows a smaller overlap or a gap,
 ///   because thin parts that are apart have opposed faces too.
+///
+/// `narrow`: receives the overlaps narrower than min_width, of any direction, but for those of rounding.
 std::vector<JointPatch> clip_opposed_faces(const CollisionModel& model, int part_a, int part_b,
                                            const Eigen::Isometry3d& pose_ab,
-                                           const NarrowPhaseOptions& options);
+                                           const NarrowPhaseOptions& options,
+                                           std::vector<JointPatch>* narrow = nullptr);
 
 /// Overlap of two faces of the collision model, projected along `normal` (unit, from a to b). It has no
 /// corners when the faces do not overlap. The normal at each corner depends on the features that meet there.

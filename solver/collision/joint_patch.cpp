@@ -16,15 +16,6 @@ bool lies_on(const Plane& plane, const Vec3& x, double tolerance) {
   return std::abs(plane.normal.dot(x) - plane.offset) <= tolerance;
 }
 
-bool coplanar(const JointPatch& p, const JointPatch& q, double tolerance) {
-  if (!p.has_area() || !q.has_area() || p.kind != q.kind || p.ring != q.ring) return false;
-  if (p.normal.dot(q.normal) < 0.5) return false;
-  return std::all_of(q.corners.begin(), q.corners.end(), [&](const PatchCorner& corner) {
-    const LiftedPoint x = lift_to_faces(q, corner.position);
-    return lies_on(p.plane_a, x.on_a, tolerance) && lies_on(p.plane_b, x.on_b, tolerance);
-  });
-}
-
 double perimeter(const std::vector<Vec2>& polygon) {
   double length = 0.0;
   for (std::size_t i = 0; i < polygon.size(); ++i)
@@ -80,6 +71,15 @@ std::optional<JointPatch> collinear_union(const JointPatch& p, const JointPatch&
 }
 
 }  // namespace
+
+bool coplanar(const JointPatch& p, const JointPatch& q, double tolerance) {
+  if (!p.has_area() || !q.has_area() || p.kind != q.kind || p.ring != q.ring) return false;
+  if (p.normal.dot(q.normal) < 0.5) return false;
+  return std::all_of(q.corners.begin(), q.corners.end(), [&](const PatchCorner& corner) {
+    const LiftedPoint x = lift_to_faces(q, corner.position);
+    return lies_on(p.plane_a, x.on_a, tolerance) && lies_on(p.plane_b, x.on_b, tolerance);
+  });
+}
 
 void JointPatch::set_normal(const Vec3& unit_normal) {
   CUPOLA_ASSERT(std::abs(unit_normal.squaredNorm() - 1.0) < 1e-9);

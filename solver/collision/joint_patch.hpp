@@ -64,6 +64,9 @@ LiftedPoint lift_to_faces(const JointPatch& patch, const Vec2& x);
 void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart& part_b, FaceKind face_b,
               JointPatch* patch);
 
+/// True if q, of the same blocks, kind and ring as p, lies within `tolerance` (m) of the planes of p.
+bool coplanar(const JointPatch& p, const JointPatch& q, double tolerance);
+
 /// Merges patches of one block pair that have the same kind and ring, lie in one plane and have a convex
 /// union, and edge contacts that meet in one line. Cutting a block into slices therefore does not change its
 /// joints. A merged patch takes the identity of its first piece.
