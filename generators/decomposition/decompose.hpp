@@ -35,7 +35,7 @@ Decomposition decompose(const TriangleMesh& mesh, const std::string& name,
                         const DecompositionOptions& options = {});
 
 /// CGAL's exact decomposition. It is correct for any closed block, but slow, and it splits along coplanar
-/// edges that rounding makes reflex.
+/// edges that rounding makes reflex. Empty if CGAL fails.
 std::vector<ConvexPolyhedron> decompose_by_nef(const TriangleMesh& mesh);
 
 }  // namespace cupola

@@ -56,7 +56,7 @@ ConvexPolyhedron to_convex(const Polyhedron& polyhedron) {
 
 }  // namespace
 
-std::vector<ConvexPolyhedron> decompose_by_nef(const TriangleMesh& mesh) {
+std::vector<ConvexPolyhedron> decompose_by_nef(const TriangleMesh& mesh) try {
   Polyhedron polyhedron;
   MeshBuilder<Polyhedron::HalfedgeDS> builder(mesh);
   polyhedron.delegate(builder);
@@ -71,6 +71,8 @@ std::vector<ConvexPolyhedron> decompose_by_nef(const TriangleMesh& mesh) {
     parts.push_back(to_convex(part));
   }
   return parts;
+} catch (const CGAL::Failure_exception&) {
+  return {};
 }
 
 }  // namespace cupola

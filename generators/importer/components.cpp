@@ -34,6 +34,11 @@ std::map<std::pair<int, int>, std::vector<Wing>> wings_of_edges(const PolygonMes
   return wings;
 }
 
+/// True if an edge bounds one face only, as all do in files that repeat the vertices of each face.
+bool is_open(const PolygonMesh& mesh) {
+  return std::ranges::any_of(wings_of_edges(mesh), [](const auto& edge) { return edge.second.size() == 1; });
+}
+
 /// Of unit length, into the face and across the edge from u to v.
 Vec3 inwards(const PolygonMesh& mesh, const Vec3& edge, const Wing& wing) {
   std::vector<Vec3> corners;
@@ -90,8 +95,9 @@ void merge_equal_vertices(PolygonMesh* mesh) {
   mesh->vertices = std::move(kept);
 }
 
-std::vector<RawBlock> split_components(const PolygonMesh& mesh, const std::string& path) {
+std::vector<RawBlock> split_components(PolygonMesh mesh, const std::string& path) {
   if (mesh.faces.empty()) throw InputError(FileLocation{path}, "no faces in this file");
+  if (is_open(mesh)) merge_equal_vertices(&mesh);
   DisjointSets surfaces = surfaces_of(mesh);
   const std::string stem = std::filesystem::path(path).stem().string();
   std::map<int, size_t> block_of_root;

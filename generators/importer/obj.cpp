@@ -84,6 +84,7 @@ std::vector<RawBlock> read_obj(const std::string& path) {
     }
   }
   if (!has_objects && blocks.size() > 1 && is_last_empty()) blocks.pop_back();
+  if (blocks.empty()) throw InputError(FileLocation{path}, "no faces in this file");
   for (RawBlock& block : blocks) {
     if (block.mesh.faces.empty())
       throw InputError(block.where, fmt::format("block {}: no faces", block.name));

@@ -35,7 +35,7 @@ std::vector<RawBlock> read_off(const std::string& path) {
     if (face.size() < 3) lines.fail("a face must have at least three vertices");
     mesh.faces.push_back(std::move(face));
   }
-  return split_components(mesh, path);
+  return split_components(std::move(mesh), path);
 }
 
 }  // namespace cupola

@@ -177,7 +177,7 @@ std::vector<RawBlock> read_ply(const std::string& path) {
   PolygonMesh mesh;
   for (const Element& element : header.elements)
     for (size_t i = 0; i < element.count; ++i) read_row(element, &values, path, &mesh);
-  return split_components(mesh, path);
+  return split_components(std::move(mesh), path);
 }
 
 }  // namespace cupola

@@ -40,8 +40,9 @@ std::vector<RawTie> read_rods(const std::string& path);
 /// Merges vertices with equal coordinates.
 void merge_equal_vertices(PolygonMesh* mesh);
 
-/// Connected surfaces of a mesh, in the order of their first faces. Surfaces that share corners, edges or
-/// faces are apart if their faces are oriented outwards.
-std::vector<RawBlock> split_components(const PolygonMesh& mesh, const std::string& path);
+/// Connected surfaces of a mesh, in the order of their first faces. Vertices with equal coordinates are merged
+/// if the surfaces are not closed without that. Surfaces that share corners, edges or faces are apart if their
+/// faces are oriented outwards.
+std::vector<RawBlock> split_components(PolygonMesh mesh, const std::string& path);
 
 }  // namespace cupola

@@ -61,13 +61,10 @@ PolygonMesh read_binary(const std::string& path, const std::string& bytes) {
 
 }  // namespace
 
-// STL repeats shared vertices, so equal coordinates are merged before the mesh is split into components.
 std::vector<RawBlock> read_stl(const std::string& path) {
   const std::string text = lower_case(read_text(path));
   const bool ascii = text.starts_with("solid") && text.find("facet") != std::string::npos;
-  PolygonMesh mesh = ascii ? read_ascii(path) : read_binary(path, read_bytes(path));
-  merge_equal_vertices(&mesh);
-  return split_components(mesh, path);
+  return split_components(ascii ? read_ascii(path) : read_binary(path, read_bytes(path)), path);
 }
 
 }  // namespace cupola

@@ -140,6 +140,13 @@ TEST(Decomposition, NefFallbackGivesAPartition) {
   EXPECT_NEAR(volume_of(parts), 4.5, 1e-9 * 4.5);
 }
 
+// An open surface, as an example of what CGAL refuses.
+TEST(Decomposition, NefFallbackThatFailsGivesNoParts) {
+  TriangleMesh open = repair_mesh(prism(l_shape(), 1.0), 1e-6);
+  open.triangles.pop_back();
+  EXPECT_TRUE(decompose_by_nef(open).empty());
+}
+
 // A block with a polygonal soffit of n sides, i.e. n - 1 reflex edges on one curve.
 TEST(Decomposition, CutsACurvedSoffitIntoWedges) {
   std::vector<Eigen::Vector2d> polygon{{-2, 0}, {-1, 0}};

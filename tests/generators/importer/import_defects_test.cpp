@@ -52,6 +52,7 @@ TEST_F(Import, NamesTheDefectOfInvalidInput) {
 
   EXPECT_NE(complaint(write("empty.obj", box + "o nothing\n")).find("block nothing: no faces"),
             std::string::npos);
+  EXPECT_NE(complaint(write("points.obj", "v 0 0 0\n")).find("no faces in this file"), std::string::npos);
   EXPECT_NE(
       complaint(write("huge.off", "OFF\n100000000 100000000 0\n0 0 0\n")).find("declares 100000000 items"),
       std::string::npos);

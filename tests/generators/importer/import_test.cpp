@@ -181,6 +181,25 @@ TEST_F(Import, ReadsOffStlAndPly) {
   EXPECT_NEAR(import_blocks(source, 1.0).blocks.at(0).volume, 1.0 / 6, 1e-15);
 }
 
+// Programs with flat shading write each face with vertices of its own.
+TEST_F(Import, MergesTheVerticesOfEachFaceOfOff) {
+  std::string vertices, faces;
+  int count = 0;
+  for (const double z : {0.0, 1.0})  // two stones on each other
+    for (const auto& face :
+         {std::array{3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}}) {
+      faces += fmt::format("4 {} {} {} {}\n", count, count + 1, count + 2, count + 3);
+      for (const int v : face)
+        vertices += fmt::format("{} {} {}\n", v % 4 == 1 || v % 4 == 2 ? 1 : 0, v % 4 / 2, z + v / 4);
+      count += 4;
+    }
+  ImportedBlocks source;
+  source.path = write("faces.off", "OFF\n48 12 0\n" + vertices + faces);
+  const Assembly model = import_blocks(source, 1.0);
+  ASSERT_EQ(model.blocks.size(), 2u);
+  for (const Block& b : model.blocks) EXPECT_NEAR(b.volume, 1.0, 1e-15);
+}
+
 TEST_F(Import, ReadsBinaryStlAndPly) {
   const float p[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const int t[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
