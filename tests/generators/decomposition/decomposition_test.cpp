@@ -140,11 +140,11 @@ TEST(Decomposition, NefFallbackGivesAPartition) {
   EXPECT_NEAR(volume_of(parts), 4.5, 1e-9 * 4.5);
 }
 
-// An open surface, as an example of what CGAL refuses.
+// A surface that crosses itself, as an example of where CGAL throws.
 TEST(Decomposition, NefFallbackThatFailsGivesNoParts) {
-  TriangleMesh open = repair_mesh(prism(l_shape(), 1.0), 1e-6);
-  open.triangles.pop_back();
-  EXPECT_TRUE(decompose_by_nef(open).empty());
+  TriangleMesh crossed = repair_mesh(prism(l_shape(), 1.0), 1e-6);
+  std::swap(crossed.vertices[0], crossed.vertices[1]);
+  EXPECT_TRUE(decompose_by_nef(crossed).empty());
 }
 
 // A block with a polygonal soffit of n sides, i.e. n - 1 reflex edges on one curve.
