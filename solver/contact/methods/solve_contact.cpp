@@ -48,7 +48,7 @@ SolveSummary ContactSolver::solve_from_nearer(const ContactProblem& problem,
                                               const ContactSolverOptions& options,
                                               ContactSolution* solution) {
   constexpr double kNear = 1e-3;  // where few contacts change their state
-  constexpr int kMost = 30;       // steps of a vault near collapse that get there take 2 to 10
+  constexpr int kMost = 12;       // steps of a vault near collapse that get there take 2 to 10
   ContactSolverOptions coarse = options;
   coarse.tolerance = std::max(kNear, options.tolerance);
   coarse.max_iterations.reset();
