@@ -17,6 +17,11 @@ struct Motion {
   Vec3 center = Vec3::Zero();
 
   Vec3 of(const Vec3& x) const { return shift + turn * (x - center); }
+
+  /// What is left of this motion less a part of another.
+  Motion without(const Motion& other, double part) const {
+    return {turn - part * other.turn, shift - part * other.of(center), center};
+  }
 };
 
 Motion motion_of(const Block& block, const Vec3& displacement, const Eigen::Vector4d& q) {
@@ -24,27 +29,31 @@ Motion motion_of(const Block& block, const Vec3& displacement, const Eigen::Vect
           displacement, block.centroid};
 }
 
-/// Vertices of consecutive parts, those of several faces more than once.
-std::vector<Vec3> points_of(const Assembly& assembly, std::span<const Part> parts) {
+/// Calls visit(vertex) with the vertices of consecutive parts, those of several faces more than once.
+template <class Visit>
+void for_each_vertex(const Assembly& assembly, std::span<const Part> parts, const Visit& visit) {
   const Part &first = parts.front(), &last = parts.back();
-  std::vector<Vec3> points;
   for (int f = first.face_start; f < last.face_start + last.num_faces; ++f)
-    for (const int vertex : assembly.face(f)) points.push_back(assembly.vertices[vertex]);
-  return points;
+    for (const int vertex : assembly.face(f)) visit(assembly.vertices[vertex]);
 }
 
-/// The farthest of the points from where the part of `followed` that fits them best carries it.
-double distance_moved(std::span<const Vec3> points, const Motion& own, const Motion& followed) {
+/// The part of `followed`, between none and all, that fits the own motion of the vertices best.
+double part_followed(const Assembly& assembly, std::span<const Part> parts, const Motion& own,
+                     const Motion& followed) {
   double along = 0.0, square = 0.0;
-  for (const Vec3& x : points) {
+  for_each_vertex(assembly, parts, [&](const Vec3& x) {
     const Vec3 u = followed.of(x);
     along += u.dot(own.of(x));
     square += u.squaredNorm();
-  }
-  const double part = square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+  });
+  return square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+}
+
+/// The largest distance by which a motion displaces the vertices.
+double farthest_way(const Assembly& assembly, std::span<const Part> parts, const Motion& motion) {
   double farthest = 0.0;
-  for (const Vec3& x : points)
-    farthest = std::max(farthest, (own.of(x) - part * followed.of(x)).squaredNorm());
+  for_each_vertex(assembly, parts,
+                  [&](const Vec3& x) { farthest = std::max(farthest, motion.of(x).squaredNorm()); });
   return std::sqrt(farthest);
 }
 
@@ -79,11 +88,13 @@ std::vector<double> distances_moved(const Assembly& assembly, std::span<const Ve
     const int b = first->block;
     const auto last = std::find_if(first, assembly.parts.end(), [b](const Part& p) { return p.block != b; });
     if (!assembly.blocks[b].fixed) {
-      const std::vector<Vec3> points = points_of(assembly, {first, last});
+      const std::span<const Part> parts{first, last};
       const Motion own = motion_of(assembly.blocks[b], displacement[b], quaternion_wxyz[b]);
-      distances[b] = distance_moved(points, own, {});
-      for (const Motion& move : moves)
-        distances[b] = std::min(distances[b], distance_moved(points, own, move));
+      distances[b] = farthest_way(assembly, parts, own);
+      for (const Motion& move : moves) {
+        const Motion left = own.without(move, part_followed(assembly, parts, own, move));
+        distances[b] = std::min(distances[b], farthest_way(assembly, parts, left));
+      }
     }
     first = last;
   }
