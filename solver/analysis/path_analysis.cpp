@@ -208,8 +208,9 @@ void PathRun::record(const StaticSolution& solution) {
   built_.list_parted(path_.state(), path_.contacts(), &frame);
   sinks_.frame(frame);
   summarize_static(solution, frame, model_, path_.options().tolerance, &summary_);
-  progress_.worst.include(solution.residuals, summary_.certified_force_error, summary_.forces_unique,
-                          largest_violation(frame));
+  std::optional<ForceCertificate> certificate;
+  if (!solution.step_solution.gamma.isZero(0.0)) certificate = summary_.certified_force_error;
+  progress_.worst.include(solution.residuals, certificate, summary_.forces_unique, largest_violation(frame));
   progress_.worst_balance = std::max(progress_.worst_balance, summary_.accuracy.reached);
   progress_.proven = progress_.proven && solution.proven;
   progress_.dissipated += path_.dissipated();

@@ -11,6 +11,7 @@
 #include "assembly/base/error.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/collision/open_pieces.hpp"
+#include "solver/runtime/threads.hpp"
 
 namespace cupola {
 namespace {
@@ -162,8 +163,10 @@ CollisionModel make_collision_model(const Assembly& assembly) {
   }
   std::partial_sum(model.part_start.begin(), model.part_start.end(), model.part_start.begin());
   find_open_pieces(&model);
-  for (int block = 0; block < model.num_blocks(); ++block)
-    model.block_box.push_back(smallest_box(model, block));
+  constexpr double kOperationsPerBox = 2000.0;
+  model.block_box.resize(assembly.blocks.size());
+  share_loop(kOperationsPerBox * model.num_blocks(), model.num_blocks(),
+             [&](int block) { model.block_box[block] = smallest_box(model, block); });
   model.faces.shrink_to_fit();
   model.corners.shrink_to_fit();
   model.vertices.shrink_to_fit();

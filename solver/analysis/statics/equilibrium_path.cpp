@@ -127,10 +127,35 @@ void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
     memories_ = match_memories(from.memories, contacts_.points);
   };
   detect();
+  options_.time_advance = time_advance;
+  if (is_unloaded()) {
+    for (Contact& contact : contacts_.points) contact.gap = std::max(0.0, contact.gap);
+    options_.nearby = NearbyStart{.displacement = VecX::Zero(6 * model_.num_free())};
+  }
   // The time that a control finds is not known yet.
   const double loads_at = start_.time + (options_.control ? 0.0 : time_advance);
   if (let_hang(model_, contacts_, memories_, loads_at, &start_)) detect();
-  options_.time_advance = time_advance;
+}
+
+/// True if nothing presses, pulls or moves a structure that is as it was drawn. Its blocks then rest where
+/// they are: the slight overlaps of a drawing bear as soon as loads act, as in statics.
+bool EquilibriumPath::is_unloaded() const {
+  constexpr double kSlight =
+      1e-4;  // of the smallest block; more is meant, as by a key stone that is driven in
+  if (last_displacement_.size() > 0 || options_.control || !model_.ties.empty() || !model_.heat.empty())
+    return false;
+  const double time = start_.time + options_.time_advance;
+  std::vector<Pose> moved = start_.poses;
+  place_supports(*model_.assembly, model_.support_motions, time, &moved);
+  const auto same = [](const Pose& a, const Pose& b) {
+    return a.p_WB == b.p_WB && a.q_WB.coeffs() == b.q_WB.coeffs();
+  };
+  const auto slight = [this](const Contact& contact) {
+    return contact.gap >= -kSlight * detector_.model().smallest_block;
+  };
+  return std::equal(moved.begin(), moved.end(), start_.poses.begin(), same) &&
+         std::all_of(contacts_.points.begin(), contacts_.points.end(), slight) &&
+         applied_forces(model_, start_, time).isZero(0.0);
 }
 
 bool EquilibriumPath::surely_moves_at(double value) {
@@ -189,7 +214,8 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
     if (!at_end && solution.outcome != StaticOutcome::equilibrium && !solution.proven) solution = step();
   }
   if (solution.outcome == StaticOutcome::equilibrium) {
-    last_displacement_ = displacement;
+    // What is at rest as drawn leads nowhere.
+    if (last_displacement_.size() > 0 || !displacement.isZero(0.0)) last_displacement_ = displacement;
     last_step_ = length;
   } else {
     loaded_ = last;

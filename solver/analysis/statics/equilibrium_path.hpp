@@ -56,6 +56,7 @@ class EquilibriumPath {
   StaticSolution advance_from(double guess);
   void prepare(const LoadedState& from, double time_advance);
   StaticSolution solve_from(const LoadedState& from, double time_advance);
+  bool is_unloaded() const;
   NearbyStart next_start(double step) const;
   /// Solves again where the last solve ended, until forces and geometry belong to each other.
   StaticSolution correct(StaticSolution solution);
@@ -67,7 +68,7 @@ class EquilibriumPath {
   PathGeometry geometry_;
   ContactDetector detector_;
   LoadedState loaded_;
-  VecX last_displacement_;  // of the last step, m, rad (6 nb), before corrections; empty: none yet
+  VecX last_displacement_;  // of the last step, m, rad (6 nb), before corrections; empty: at rest as drawn
   double last_step_ = 0.0;  // its length: s, or m of the control
   State start_;
   ContactSet contacts_;

@@ -83,7 +83,7 @@ StaticCertificate certify_static(const ContactSet& contacts, const VecX& loads, 
   const bool rigid = smallest_compliance(problem) == 0.0;
   const bool coulomb = !law.is_associated();
   certificate.forces_unique = forces_unique(problem, law);
-  if (problem.num_blocks() == 0 || problem.num_contacts() == 0) {
+  if (problem.num_blocks() == 0 || solution.gamma.isZero(0.0)) {
     certificate.force_error.bounds = "no joint carries force";
     certificate.exact_forces = loads.isZero(0.0);
     return certificate;

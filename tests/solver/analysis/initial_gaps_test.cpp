@@ -53,6 +53,27 @@ TEST(InitialGaps, CountAsDrawnOrAsErrorsOfTheDrawing) {
   EXPECT_NEAR(rise(high, ignore), -sinks / 12.0, tolerance);
 }
 
+// Under a growing dead load a path starts from blocks that bear nothing where they were drawn. Its end is the
+// equilibrium of statics, in which the higher pier bears before the others.
+TEST(InitialGaps, OfAnUnloadedPathBearWithTheFirstLoad) {
+  constexpr double kError = 5e-5;  // m, below 1e-4 of the slab of 1.36 m
+  const Assembly high = slab(kError);
+  Case scene = testing::make_case(0.7, kCompliance, 0.01);
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.path.steps = 2;
+  scene.loads.dead_load_time = RampInTime{};
+  AnalysisSinks sinks;
+  std::vector<Frame> frames;
+  sinks.frame = [&](const Frame& frame) { frames.push_back(frame); };
+  const Summary summary = run_path(scene, high, sinks).value();
+  ASSERT_EQ(summary.status, Status::stable) << summary.message;
+  ASSERT_EQ(frames.size(), 3u);
+  EXPECT_EQ(frames[0].blocks.displacement[3], Vec3::Zero());
+  EXPECT_EQ(frames[0].contacts.normal_force, std::vector<double>(frames[0].contacts.size(), 0.0));
+  const double sinks_by = kCompliance * free_weight(high, testing::kG);
+  EXPECT_NEAR(frames[2].blocks.displacement[3].z(), kError / 3.0 - sinks_by / 12.0, 1e-6 * sinks_by);
+}
+
 // The note sends readers to the drawing, which has no gap where a support has moved away.
 TEST(InitialGaps, AreNoMovementsOfSupports) {
   EXPECT_EQ(message_after_sinking(0.0).find("gaps of up to"), std::string::npos)
