@@ -14,6 +14,7 @@ bool falls(std::string_view ending) {
 }
 
 std::string words_of(const Summary& summary) {
+  if (summary.bears_loads_until_s) return "it bears part of its loads";
   return moves(summary.status) && !falls(summary) ? "it has not come to rest" : words_of(summary.status);
 }
 

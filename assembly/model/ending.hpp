@@ -15,7 +15,8 @@ bool falls(const Summary& summary);
 /// name that is no status.
 bool falls(std::string_view ending);
 
-/// The words of a status, "it has not come to rest" for such a motion.
+/// The words of a status, "it has not come to rest" for such a motion, "it bears part of its loads" for a path
+/// that ends before all of them.
 std::string words_of(const Summary& summary);
 
 }  // namespace cupola

@@ -251,6 +251,8 @@ struct Summary {
   std::int64_t peak_memory_bytes = 0;
   int threads = 1;
   std::optional<CriticalValue> critical;  ///< limit analysis only
+  /// Of a path that ends before the loads of its case are reached: s, the latest time at which it bore them.
+  std::optional<double> bears_loads_until_s;
   /// Limit analysis without a critical value: whether the structure stands, or moves, at both ends.
   std::optional<bool> stands_at_both_ends;
   std::vector<ForceRange> ranges;        ///< range analysis only

@@ -171,6 +171,9 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit("threads", "", "number of threads", s.threads);
   visit("robustness", "", "static analysis with `analysis.robustness`, see below", s.robustness);
   visit("warnings", "", "doubts about the case and the blocks, one sentence each", s.warnings);
+  visit("bears_loads_until_s", "s",
+        "a path by a `length` that ends before the loads of the case are reached: the latest of its times",
+        s.bears_loads_until_s);
   visit(
       "stands_at_both_ends", "",
       "limit analysis without a critical value: whether the structure stands, or moves, at both ends of its "

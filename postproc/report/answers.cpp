@@ -146,15 +146,6 @@ KeyNumber largest_load(const Evaluation& e, double time) {
                       loads.empty() ? "" : ": ", loads)};
 }
 
-/// True if the loads at two times differ.
-bool loads_differ(const Evaluation& e, double time, double other) {
-  FrameEvaluation at, then;
-  set_loads(e, time, &at);
-  set_loads(e, other, &then);
-  return at.gravity != then.gravity ||
-         !std::ranges::equal(at.loads, then.loads, {}, &PointForce::force, &PointForce::force);
-}
-
 /// What a search over directions leaves open; "" if it has decided all.
 std::string undecided_text(int sought, int decided) {
   if (decided >= sought) return "";
@@ -182,19 +173,10 @@ std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_jo
 
 }  // namespace
 
-std::optional<double> end_of_loads(const Evaluation& e) {
-  constexpr double kRounding = 1e-9;
-  const LoadPath& path = e.scene.analysis.path;
-  if (e.last.frame.role != FrameRole::path || !path.length || !stands(e.summary.status)) return std::nullopt;
-  const double latest = e.times.empty() ? e.last.frame.time : std::ranges::max(e.times);
-  const bool lacks = latest < (1.0 - kRounding) * path.end && loads_differ(e, latest, path.end);
-  return lacks ? std::optional(latest) : std::nullopt;
-}
-
 VerdictWords words_of_run(const Summary& summary) {
   std::string words = words_of(summary);
   words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
-  return {words, stands(summary.status)};
+  return {words, stands(summary.status) && !summary.bears_loads_until_s};
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
@@ -202,7 +184,6 @@ VerdictWords verdict_words(const Evaluation& e) {
     return {parts.contains("It falls") ? "It stands, except for what falls"
                                        : "It stands, except for what is undecided",
             false};
-  if (end_of_loads(e)) return {"It bears part of its loads", false};
   if (!is_limit(e) || !e.summary.critical || e.summary.status == Status::unconverged)
     return words_of_run(e.summary);
   const CriticalValue& critical = *e.summary.critical;
@@ -252,7 +233,7 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (e.last.frame.role == FrameRole::path) {
     if (const double latest = std::ranges::max(e.times); latest > e.times.back())
       return largest_load(e, latest);
-    if (!stands(e.summary.status) || end_of_loads(e)) return end_of_path(e);
+    if (!stands(e.summary.status) || e.summary.bears_loads_until_s) return end_of_path(e);
   }
   return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }

@@ -23,10 +23,6 @@ VerdictWords words_of_run(const Summary& summary);
 /// the case lies.
 VerdictWords verdict_words(const Evaluation& evaluation);
 
-/// s, the latest time of a path by its length that ends before the loads of the case are reached. None if they
-/// are, and without a length.
-std::optional<double> end_of_loads(const Evaluation& evaluation);
-
 /// "support block 0 has moved by 5 mm", "3 supports have moved by up to 5 mm and turned by up to 0.1 degrees";
 /// "" within rounding.
 std::string moved_text(const Evaluation& evaluation);

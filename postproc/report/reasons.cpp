@@ -240,7 +240,7 @@ std::string reason_for_verdict(const Evaluation& e) {
   if (at_rest(e) && !e.summary.parts.empty()) return parts_sentence(e);
   const Summary& s = e.summary;
   std::string text;
-  if (const auto latest = end_of_loads(e))
+  if (const auto latest = s.bears_loads_until_s)
     text = fmt::format("At most those at {:.4g} s of {:.4g} s. ", *latest, e.scene.analysis.path.end);
   if (shows_the_case(e) && stands(s.status))
     text += carried_text(e);

@@ -75,6 +75,7 @@ std::string verdict_of(RunFiles& run, const std::string& folder) {
   Summary summary;  // of a member that was not evaluated
   summary.status = enum_from_name<Status>(run.status()).value_or(Status::unconverged);
   summary.max_speed_m_per_s = run.number_if_any("results.max_speed_m_per_s");
+  summary.bears_loads_until_s = run.number_if_any("results.bears_loads_until_s");
   return words_of_run(summary).words;
 }
 

@@ -8,11 +8,11 @@
 #include "assembly/base/pace.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/files/byte_archive.hpp"
-#include "assembly/files/csv_columns.hpp"
 #include "assembly/files/summary_file.hpp"
 #include "assembly/model/block_names.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/path_control.hpp"
+#include "solver/analysis/path_row.hpp"
 #include "solver/analysis/record/joints_as_built.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/record/record_archive.hpp"
@@ -22,27 +22,6 @@
 #include "solver/dynamics/scene_options.hpp"
 
 namespace cupola {
-
-namespace {
-
-/// An equilibrium of the path: a row of path.csv.
-struct PathRow {
-  double time, displacement, force, dissipated, mean_damage;
-  int solves;
-  double widest_gap;
-};
-
-constexpr CsvColumn<PathRow> kPathColumns[] = {
-    {"time_s", [](const PathRow& r) { return fmt::format("{:.9g}", r.time); }},
-    {"displacement_m", [](const PathRow& r) { return fmt::format("{:.9g}", r.displacement); }},
-    {"force_N", [](const PathRow& r) { return fmt::format("{:.9g}", r.force); }},
-    {"dissipated_J", [](const PathRow& r) { return fmt::format("{:.9g}", r.dissipated); }},
-    {"mean_damage", [](const PathRow& r) { return fmt::format("{:.6g}", r.mean_damage); }},
-    {"solves", [](const PathRow& r) { return std::to_string(r.solves); }},
-    {"widest_gap_m", [](const PathRow& r) { return fmt::format("{:.9g}", r.widest_gap); }},
-};
-
-}  // namespace
 
 /// What the steps of a path so far have shown.
 struct PathProgress {
@@ -55,14 +34,15 @@ struct PathProgress {
   bool moved = false;  // the last step tried was refused by a proof
   WorstOfRun worst;
   double worst_balance = 0.0, dissipated = 0.0;
+  double latest = 0.0;  // s, of all equilibria
   double largest_force = 0.0, time_of_largest = 0.0, displacement_of_largest = 0.0;
-  std::string table = csv_header(kPathColumns) + "\n";
+  std::string table = path_header();
 };
 
 template <class Archive>
 void visit(Archive& archive, PathProgress& x) {
   archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.proven, x.moved,
-          x.worst, x.worst_balance, x.dissipated, x.largest_force, x.time_of_largest,
+          x.worst, x.worst_balance, x.dissipated, x.latest, x.largest_force, x.time_of_largest,
           x.displacement_of_largest, x.table);
 }
 
@@ -71,40 +51,6 @@ namespace {
 constexpr double kShortestStep = 1.0 / 64;  // of a regular one
 constexpr double kRounding = 1e-12;         // of times, relative
 constexpr double kClose = 0.1;              // part of a step of length that may be missing
-
-/// m, of the points of open joints; 0 if all are closed.
-double widest_gap(const ContactTable& contacts) {
-  double widest = 0.0;
-  for (int i = 0; i < contacts.size(); ++i) {
-    if (contacts.normal_force[i] > 0.0) continue;
-    widest = std::max(widest, contacts.crack_opening.empty() ? contacts.gap[i] : contacts.crack_opening[i]);
-  }
-  return widest;
-}
-
-/// The force that a support exerts on the blocks by contacts and ties, or the loads on all blocks if the
-/// control block is free.
-Vec3 control_force(const Model& model, const EquilibriumPath& path, const StaticSolution& solution,
-                   int block) {
-  if (model.free_index[block] != ContactProblem::kFixed) return solution.balance.applied_load;
-  Vec3 force = Vec3::Zero();
-  const auto add = [&](int a, int b, const Vec3& on_b) {
-    if (a == block) force += on_b;
-    if (b == block) force -= on_b;
-  };
-  for (size_t i = 0; i < path.contacts().points.size(); ++i) {
-    const Contact& contact = path.contacts().points[i];
-    add(contact.block_a, contact.block_b, solution.forces.contacts[i]);
-  }
-  for (size_t k = 0; k < model.ties.size(); ++k) {
-    const Tie& tie = model.ties[k];
-    if (tie.is_restraint()) continue;  // a force of the ground
-    const State& start = path.start();
-    add(tie.block_a, tie.block_b,
-        solution.forces.ties[k] * tie_geometry(tie, start.poses, start.ground).normal);
-  }
-  return force;
-}
 
 /// The equilibria of a path, one after the other. Its parameter is the time, or the length: the displacement
 /// of the control from that at time 0.
@@ -118,7 +64,8 @@ class PathRun {
   double parameter() const {
     return options_.length ? displacement() - progress_.first_displacement : path_.value();
   }
-  bool at_end_of_time() const { return path_.value() > (1.0 - kRounding) * options_.end; }
+  bool is_end(double time) const { return time > (1.0 - kRounding) * options_.end; }
+  bool bears_all_loads() const;
   bool advance(double parameter);
   bool refuse(StaticOutcome outcome, bool proven, double parameter, const std::string& reason);
   void record(const StaticSolution& solution);
@@ -214,37 +161,30 @@ void PathRun::record(const StaticSolution& solution) {
   progress_.worst_balance = std::max(progress_.worst_balance, summary_.accuracy.reached);
   progress_.proven = progress_.proven && solution.proven;
   progress_.dissipated += path_.dissipated();
+  progress_.latest = std::max(progress_.latest, path_.value());
   if (progress_.equilibria++ == 0) progress_.first_displacement = displacement();
   tabulate(frame, solution);
 }
 
-/// The row of path.csv.
 void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
   const double force = control_force(model_, path_, solution, control_.block).dot(control_.direction);
-  if (std::abs(force) > std::abs(progress_.largest_force)) {
-    progress_.largest_force = force;
-    progress_.time_of_largest = path_.value();
-    progress_.displacement_of_largest = displacement();
-  }
-  double damage = 0.0, area = 0.0;
-  for (int i = 0; i < frame.contacts.size() && !frame.contacts.damage.empty(); ++i) {
-    if (std::isnan(frame.contacts.damage[i])) continue;  // nothing to lose
-    damage += frame.contacts.area[i] * frame.contacts.damage[i];
-    area += frame.contacts.area[i];
-  }
-  const double mean_damage = area > 0.0 ? damage / area : 0.0;
   const PathRow row{path_.value(),
                     displacement(),
                     force,
                     progress_.dissipated,
-                    mean_damage,
+                    mean_damage(frame.contacts),
                     path_.solves(),
                     widest_gap(frame.contacts)};
-  progress_.table += csv_row(kPathColumns, row) + "\n";
+  if (std::abs(force) > std::abs(progress_.largest_force)) {
+    progress_.largest_force = force;
+    progress_.time_of_largest = row.time;
+    progress_.displacement_of_largest = row.displacement;
+  }
+  progress_.table += path_line(row);
   sinks_.table("path.csv", progress_.table);
   const std::string line =
-      fmt::format("time {:9.4g} s  displacement {:11.4e} m  force {:11.4e} N  damage {:6.4f}  {}",
-                  path_.value(), displacement(), force, mean_damage, counted(path_.solves(), "solve"));
+      fmt::format("time {:9.4g} s  displacement {:11.4e} m  force {:11.4e} N  damage {:6.4f}  {}", row.time,
+                  row.displacement, row.force, row.mean_damage, counted(row.solves, "solve"));
   sinks_.log(line);
   sinks_.progress(parameter() / options_.length.value_or(options_.end), line);
 }
@@ -265,6 +205,12 @@ void PathRun::resume() {
   summary_ = summary_from_json(summary, "checkpoint");
 }
 
+/// False of a path by a length whose loads change after the latest of its times.
+bool PathRun::bears_all_loads() const {
+  const auto loads = [this](double time) { return applied_forces(model_, path_.state(), time); };
+  return !options_.length || is_end(progress_.latest) || loads(progress_.latest) == loads(options_.end);
+}
+
 void PathRun::judge(double started) {
   summary_.steps = progress_.equilibria;
   summary_.iterations = progress_.iterations;
@@ -283,9 +229,10 @@ void PathRun::judge(double started) {
                                               : fmt::format("{:.6g} s", path_.value());
   if (stands(last_status_)) {
     summary_.status = standing(progress_.proven);
+    if (!bears_all_loads()) summary_.bears_loads_until_s = progress_.latest;
     summary_.message = fmt::format(
         "{} up to {}; {}", counted(progress_.equilibria, "equilibrium", "equilibria"), reached, largest);
-    if (options_.length && at_end_of_time())
+    if (options_.length && is_end(path_.value()))
       summary_.message += fmt::format("; the latest time, {:g} s, came before the length of the path, {:g} m",
                                       options_.end, *options_.length);
     return;
@@ -317,7 +264,7 @@ std::optional<Summary> PathRun::run() {
       const bool there = options_.length ? parameter() > target - kClose * step * regular : reaches;
       progress_.next += there ? 1 : 0;
       step = std::min(1.0, 2.0 * step);
-      if (options_.length && at_end_of_time()) break;
+      if (options_.length && is_end(path_.value())) break;
     } else if ((step *= 0.5) < kShortestStep) {
       break;
     }

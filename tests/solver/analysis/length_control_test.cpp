@@ -183,6 +183,9 @@ TEST(LengthControl, FollowsABlockThatTiltsToItsUnstableBalance) {
   scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, Vec3::UnitX()};
   const PathResult result = run(scene, assembly);
   ASSERT_TRUE(stands(result.summary.status)) << result.summary.message;
+  double latest = 0.0;
+  for (const auto& row : result.rows) latest = std::max(latest, row[0]);
+  EXPECT_NEAR(result.summary.bears_loads_until_s.value_or(0.0), latest, 1e-9 * latest);  // nine digits
   for (size_t k = 1; k < result.rows.size(); ++k) {
     const double arm = 0.25 - result.rows[k - 1][1];
     EXPECT_NEAR(result.rows[k][2], weight * arm / std::sqrt(radius * radius - arm * arm), 5e-3 * weight) << k;
@@ -195,6 +198,7 @@ TEST(LengthControl, EndsAtTheLatestTimeAndSaysSo) {
   const PathResult result = run(scene, testing::box_on_floor({1.0, 0.2, 0.2}));
   EXPECT_EQ(result.summary.status, Status::stable);
   EXPECT_EQ(result.rows.back()[0], 1.0);
+  EXPECT_FALSE(result.summary.bears_loads_until_s);
   EXPECT_NE(result.summary.message.find("the latest time, 1 s, came before the length of the path"),
             std::string::npos)
       << result.summary.message;
