@@ -42,7 +42,7 @@ class PullTrials {
     limit.iterations = iterations;
     return limit;
   }
-  ContactProblem joints_at(double value) const { return scene_at_(value).problem.contacts; }
+  RigidScene scene_at(double value) const { return scene_at_(value); }
   int count = 0, iterations = 0;
 
  private:
@@ -111,10 +111,12 @@ Ends ends_around(double root, double low, double high, double relative_width, Pu
 
 Ends first_ends(double low, double high, double relative_width, LimitSearch::Parameter parameter,
                 PullTrials* trials) {
-  if (parameter == LimitSearch::Parameter::thickness) return {trials->solve(low), trials->solve(high)};
+  const RigidScene at_low = trials->scene_at(low), at_high = trials->scene_at(high);
+  if (parameter == LimitSearch::Parameter::thickness || at_low.open_in_part || at_high.open_in_part)
+    return {trials->solve(low), trials->solve(high)};
   // Small joints have small arms, which magnify the error of a force in alpha.
   const double rough = parameter == LimitSearch::Parameter::friction ? 1e-2 : 1e-4;
-  const JointsDerivative joints(low, trials->joints_at(low), high, trials->joints_at(high));
+  const JointsDerivative joints(low, at_low.problem.contacts, high, at_high.problem.contacts);
   return ends_around(estimate_root(low, high, relative_width, joints, rough, trials), low, high,
                      relative_width, trials);
 }
@@ -159,7 +161,7 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   PullTrials trials(scene_at, report);
   double floor = -std::numeric_limits<double>::infinity();
   if (friction) {
-    const bool dry = trials.joints_at(high).strength.empty();
+    const bool dry = trials.scene_at(high).problem.contacts.strength.empty();
     const double least = dry ? kNoFriction : kLeastOfMortar;
     if (high <= least)
       throw InputError(
@@ -175,7 +177,7 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
     low = floor *= 2.0;
     ends = first_ends(low, high, relative_width, parameter, &trials);
   }
-  const bool more_bears_more = !friction || !bears_tension(trials.joints_at(high));
+  const bool more_bears_more = !friction || !bears_tension(trials.scene_at(high).problem.contacts);
   if (!more_bears_more && ends.below.admissible() == ends.above.admissible())
     ends = {trials.solve(low), trials.solve(high)};
   for (const PullSolve& end : {std::cref(ends.below), std::cref(ends.above)})

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "solver/analysis/admissible/joint_geometry.hpp"
+#include "solver/analysis/admissible/joint_extent.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/collision/contact_detector.hpp"
 #include "solver/contact/problem/cone.hpp"
@@ -43,19 +43,6 @@ void keep_corners(ContactSet* contacts) {
     if (is_reduced(point.patch)) point.area = faces[point.patch].area / faces[point.patch].corners;
 }
 
-void scale_joints(const Assembly& assembly, double extent, ContactSet* contacts) {
-  const JointGeometry joints(assembly, *contacts);
-  for (const auto& [key, pair] : joints.pairs()) {
-    for (const int i : pair.contacts) {
-      Contact& contact = contacts->points[i];
-      const Vec3 shift = (extent - 1.0) * (0.5 * (contact.point_a + contact.point_b) - pair.centroid);
-      contact.point_a += shift;
-      contact.point_b += shift;
-      contact.area *= extent * extent;
-    }
-  }
-}
-
 /// The key that gives some joints no friction.
 std::string key_without_friction(const Joints& joints) {
   if (joints.friction == 0.0) return "joints.friction";
@@ -87,10 +74,13 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   rigid.assembly = std::move(assembly);
   rigid.model = make_model(scene, *rigid.assembly);
   rigid.start = state_at_rest(rigid.model);
-  ContactDetector detector(*rigid.assembly, detection_options(scene));
-  rigid.contacts = detector.update(rigid.start.poses);
-  if (!all_points && !scene.joints.have_strength()) keep_corners(&rigid.contacts);
-  if (joint_extent != 1.0) scale_joints(*rigid.assembly, joint_extent, &rigid.contacts);
+  const DetectionOptions options = detection_options(scene);
+  rigid.contacts = ContactDetector(*rigid.assembly, options).update(rigid.start.poses);
+  const bool corners = !all_points && !scene.joints.have_strength();
+  if (corners) keep_corners(&rigid.contacts);
+  if (joint_extent != 1.0)
+    rigid.open_in_part = scale_joints(*rigid.assembly, joint_extent,
+                                      corners ? PatchSampling{} : options.sampling, &rigid.contacts);
   rigid.memories = match_memories({}, rigid.contacts.points);
 
   const StepOptions step{.h = 1.0, .time_advance = 0.0};

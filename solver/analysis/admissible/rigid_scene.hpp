@@ -18,13 +18,13 @@ struct RigidScene {
   State start;
   ContactSet contacts;  ///< those of a static analysis, all within `contact.margin`, or enough of them
   ContactMemories memories;
-  ConicProblem problem;  ///< equilibrium under the loads at time 0, without an objective
+  ConicProblem problem;       ///< equilibrium under the loads at time 0, without an objective
+  bool open_in_part = false;  ///< some scaled joints are: their points do not scale linearly
 };
 
 /// Every contact within `contact.margin` counts as closed, as in a static analysis; a tie carries only
-/// tension, a strut only compression. `joint_extent` scales the distances of the contact points from the
-/// centroid of their joint (all faces between two blocks), and its square their areas. Throws InputError for
-/// a joint with cohesion but without friction.
+/// tension, a strut only compression. `joint_extent`: see scale_joints(). Throws InputError for a joint with
+/// cohesion but without friction.
 ///
 /// Dry joints have the points at the corners of their faces only, which carry the same forces and moments as
 /// all points; with `all_points`, for stresses, they have all.
