@@ -78,6 +78,24 @@ std::optional<ConfidenceInterval> order_interval(const std::vector<double>& sort
   return ConfidenceInterval{sorted[static_cast<size_t>(low)], sorted[static_cast<size_t>(high)]};
 }
 
+/// The shares of the replicates below a quantile scatter about p. Between the order statistics k and k + 1 a
+/// share of k / n lies below. One more on either side: shares of small replicates may agree by chance.
+std::optional<ConfidenceInterval> replicate_interval(const DrawnValues& drawn,
+                                                     const std::vector<double>& sorted, double p) {
+  std::vector<double> shares;
+  for (const auto& group : groups_of(drawn))
+    shares.push_back(
+        static_cast<double>(std::ranges::upper_bound(group, sorted_quantile(sorted, p)) - group.begin()) /
+        static_cast<double>(group.size()));
+  const std::optional<ConfidenceInterval> share = student(shares);
+  if (!share) return {};
+  const double n = static_cast<double>(sorted.size()), half = 0.5 * (share->high - share->low);
+  const double low = std::floor(n * (p - half)), high = std::ceil(n * (p + half));
+  if (low < 1.0 || high >= n) return {};
+  return ConfidenceInterval{sorted[static_cast<size_t>(std::max(low - 1.0, 1.0)) - 1],
+                            sorted[static_cast<size_t>(std::min(high + 1.0, n - 1.0))]};
+}
+
 /// Ranks from 0, of ties their mean.
 std::vector<double> ranks_of(const std::vector<double>& values) {
   std::vector<size_t> order(values.size());
@@ -126,13 +144,9 @@ IntervalEstimate quantile_of(const DrawnValues& drawn, double p) {
   if (sorted.empty()) return {kNan, {}};
   IntervalEstimate quantile{sorted_quantile(sorted, p), {}};
   if (drawn.replicates == 0) return quantile;
-  if (drawn.replicates == static_cast<int>(drawn.values.size())) {
-    quantile.interval = order_interval(sorted, p);
-    return quantile;
-  }
-  std::vector<double> quantiles;
-  for (const auto& group : groups_of(drawn)) quantiles.push_back(sorted_quantile(group, p));
-  quantile.interval = student(quantiles);
+  quantile.interval = drawn.replicates == static_cast<int>(drawn.values.size())
+                          ? order_interval(sorted, p)
+                          : replicate_interval(drawn, sorted, p);
   return quantile;
 }
 

@@ -35,9 +35,9 @@ struct DrawnValues {
 IntervalEstimate mean_of(const DrawnValues& drawn);
 
 /// Quantile p in (0, 1), interpolated between the order statistics (definition 7 of R. J. Hyndman and Y. Fan,
-/// 1996). The interval of independent values is that of two order statistics by the binomial distribution,
-/// which the values do not always reach; of several values per replicate, that of Student's t over the
-/// quantiles of the replicates about their own mean.
+/// 1996). The interval, that of two order statistics, which the values do not always reach: of independent
+/// values by the binomial distribution, else by Student's t over the shares of the replicates below it (R. S.
+/// Woodruff, 1952), because small replicates have quantiles of their own.
 IntervalEstimate quantile_of(const DrawnValues& drawn, double p);
 
 /// Standard deviation (n - 1); NaN of fewer than two values.
