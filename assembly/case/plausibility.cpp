@@ -44,12 +44,18 @@ std::vector<std::string> unused_tensions(const Joints& joints) {
 
 std::vector<std::string> undivided_joints(const Case& scene) {
   const CaseNode* contact = scene.keys->find("contact");
-  if ((contact && contact->find("subdivide")) || std::isinf(compressive_strengths(scene.joints).first))
+  const bool seeks_stress = scene.analysis.type == AnalysisType::limit &&
+                            scene.analysis.limit.parameter == LimitSearch::Parameter::peak_stress &&
+                            scene.joints.compliance.per == Compliance::Per::area;
+  if ((contact && contact->find("subdivide")) ||
+      (!seeks_stress && std::isinf(compressive_strengths(scene.joints).first)))
     return {};
   return {
-      "contact.subdivide is not given: an undivided joint with compressive strength is 20 % too strong "
-      "where a sixth of it bears, 85 % where a tenth does, and more below, because its edge never crushes, "
-      "and a third too weak where half of it bears; write 8, and double it until the answer stays"};
+      "contact.subdivide is not given: an undivided joint with compressive strength, or whose peak stress is "
+      "sought, is 20 % too strong where a sixth of it bears, 85 % where a tenth does, and more below, "
+      "because "
+      "its edge never crushes, and a third too weak where half of it bears; write 8, and double it until the "
+      "answer stays"};
 }
 
 }  // namespace cupola

@@ -85,8 +85,11 @@ const std::vector<Mistake> kMistakes = {
      "joints.fracture_energy.tension = 0.01 N/m: 0.1 to 100000 N/m expected; in N/mm?"},
     {"arch",
      {"joints.compliance={per: area}", "joints.compressive_strength=2.5e6"},
-     "contact.subdivide is not given: an undivided joint with compressive strength is 20 % too strong where "
-     "a sixth"},
+     "contact.subdivide is not given: an undivided joint with compressive strength, or whose peak stress is "
+     "sought, is 20 % too strong where a sixth"},
+    {"arch",
+     {"joints.compliance={per: area}", "analysis={type: limit, limit: {parameter: peak_stress}}"},
+     "contact.subdivide is not given: "},
     {"arch",
      {"joints.compliance={per: area}", "joints.bed.compressive_strength=2.5e6"},
      "contact.subdivide is not given: "},
