@@ -47,6 +47,12 @@ std::string distance_from_limit(double factor, const CriticalValue& critical) {
 
 namespace {
 
+/// "it moves again beyond 1.2418", of a search that has found another limit there; "" otherwise.
+std::string other_limit(const std::string& message) {
+  const size_t start = message.find("it moves again beyond ");
+  return start == std::string::npos ? "" : message.substr(start, message.find("; ", start) - start);
+}
+
 KeyNumber critical_answer(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
   const std::optional<double> margin = factor_of_safety(e.scene, e.summary);
@@ -67,6 +73,7 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (!decides.empty())
     details.push_back(
         fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
+  if (const std::string other = other_limit(e.summary.message); !other.empty()) details.push_back(other);
   if (const std::string direction = direction_of_limit(e.scene); !direction.empty())
     details.push_back(direction);
   if (shows_bracket(critical) || critical.value == 0.0)

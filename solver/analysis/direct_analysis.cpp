@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <stdexcept>
 
@@ -98,10 +99,12 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
       if (has_tangents_of_dry_joints(scene))
         return limit_of_tilt(scene_at, limit.low, limit.high, width, report);
       [[fallthrough]];
-    case Parameter::load:
     case Parameter::acceleration:
     case Parameter::lantern:
       return limit_of_loads(scene_at, limit.low, limit.high, width, report);
+    case Parameter::load:
+      return limit_of_loads(scene_at, limit.low, limit.high, width, report, std::identity{},
+                            own_value(scene));
     case Parameter::friction:
     case Parameter::thickness:
     case Parameter::joint_extent:

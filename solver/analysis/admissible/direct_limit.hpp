@@ -51,10 +51,12 @@ using ReportTrial = std::function<void(const DirectTrial&)>;
 /// linear in the parameter, a few for a tilt, after halving the bracket where they have no such multiplier.
 /// `low` and `high`: an admissible state exists at one of them. If one exists at both, and loads that are
 /// linear and grow away from zero have one by themselves, there is no limit.
-/// `in_unit`: from the values of the search to those of messages.
+/// `in_unit`: from the values of the search to those of messages. `own`: the value of the case, within the
+/// bracket, if larger loads are what it is to bear: where it needs some of them, the limit is the upper one.
 DirectLimit limit_of_loads(
     const SceneAt& scene_at, double low, double high, double relative_width, const ReportTrial& report,
-    const std::function<double(double)>& in_unit = [](double value) { return value; });
+    const std::function<double(double)>& in_unit = [](double value) { return value; },
+    std::optional<double> own = {});
 
 /// Critical value of a parameter of the joints: the root of the pull alpha that the contacts need
 /// (pull_solve.hpp). Friction and extent of the joints, on which the conditions depend linearly: Newton's

@@ -112,6 +112,17 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
   return limit;
 }
 
+/// "; it moves again beyond 1.2418": of linear loads of which the structure needs some, where they become too
+/// large; "" if they do not. `stands`: the end of the bracket towards larger loads.
+std::string other_limit(const SceneAt& scene_at, double moves, double stands) {
+  if (!are_linear(scene_at, moves, stands)) return "";
+  RigidScene scene;
+  const ConicSolution grown =
+      solve_conic(largest_multiplier(scene_at, stands, stands > moves ? 1.0 : -1.0, &scene));
+  if (grown.outcome != ConicOutcome::optimal) return "";
+  return fmt::format("; it moves again beyond {:.5g}", stands + grown.multipliers[0]);
+}
+
 /// Moves one end of a bracket to its middle, and returns it; none if the solve there did not decide.
 std::optional<double> halve(const SceneAt& scene_at, double* stands, double* moves, DirectLimit* limit,
                             const ReportTrial& report) {
@@ -141,11 +152,20 @@ void complete(const SceneAt& scene_at, double towards, DirectLimit* limit) {
 }  // namespace
 
 DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, double relative_width,
-                           const ReportTrial& report, const std::function<double(double)>& in_unit) {
+                           const ReportTrial& report, const std::function<double(double)>& in_unit,
+                           std::optional<double> own) {
   constexpr int kMaxIterations = 30;
   DirectLimit limit;
-  const std::optional<bool> at_low = has_state(scene_at, low, &limit, report);
+  std::optional<bool> at_low = has_state(scene_at, low, &limit, report);
   const std::optional<bool> at_high = has_state(scene_at, high, &limit, report);
+  std::string other;
+  if (own && at_low == false && at_high == false && has_state(scene_at, *own, &limit, report) == true) {
+    other = fmt::format("; it moves at {:g} too", low);
+    low = *own;
+    at_low = true;
+  } else if (own && at_low == false && at_high == true) {
+    other = other_limit(scene_at, low, high);
+  }
   if (!at_low || !at_high) return not_found(std::move(limit), unsolved_end(in_unit(at_low ? high : low)));
   if (*at_low && *at_high) return stands_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
@@ -184,6 +204,7 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   if (!limit.found)
     return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
   limit.span = high - low;
+  limit.message = std::move(other);
   complete(scene_at, towards, &limit);
   return limit;
 }

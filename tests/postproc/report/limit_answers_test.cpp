@@ -149,6 +149,14 @@ TEST(LimitAnswers, ALimitAtZeroHasTheWidthThatWasReached) {
       << certain_sentence(e);
 }
 
+// Loads that a structure needs can also be too large.
+TEST(LimitAnswers, ALeastLoadNamesTheLargestOneToo) {
+  Evaluation e = limit_of(LimitSearch::Parameter::load, 0.0, 0.0366, 0.0365);
+  e.summary.message = "critical load factor: 0.0366; it moves again beyond 1.2418; 5 groups of blocks move";
+  EXPECT_NE((margin_answer(e).detail + ";").find("; it moves again beyond 1.2418;"), std::string::npos)
+      << margin_answer(e).detail;
+}
+
 // Forces that do not balance at one end of the bracket decide nothing.
 TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
   Evaluation e = limit_of(LimitSearch::Parameter::joint_extent, 0.0, 0.055, 0.054);
