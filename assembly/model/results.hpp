@@ -28,7 +28,7 @@ struct Joint {
   int block_a = 0;
   int block_b = 0;
   JointKind kind = JointKind::other;
-  int ring = 0;  ///< course of the upper block; 0 for a base joint
+  int ring = 0;  ///< course of the upper block
 };
 
 /// Forces up to this share of the largest joint force of a frame are negligible. Solved forces are at least a

@@ -118,11 +118,15 @@ class Chains {
     if (a.course == CrackCourse::layers) return shares_block(ja, jb);
     if (assembly_.num_rings == 0) return meets_end(a, b);
     if (a.course == CrackCourse::parallel)
-      return ja.ring == jb.ring && (shares_block(ja, jb) || meets_end(a, b));
+      return follow_along(ja, jb) && (shares_block(ja, jb) || meets_end(a, b));
     return ja.ring != jb.ring && (meets_end(a, b) || (on_common_bed(ja, jb) && ends_near(a, b)));
   }
 
  private:
+  /// Joints of one bed, or along the supports, which may lie beside several courses.
+  static bool follow_along(const Joint& a, const Joint& b) {
+    return a.kind == b.kind && (a.kind == JointKind::base || a.ring == b.ring);
+  }
   static bool shares_block(const Joint& a, const Joint& b) {
     return a.block_a == b.block_a || a.block_a == b.block_b || a.block_b == b.block_a ||
            a.block_b == b.block_b;

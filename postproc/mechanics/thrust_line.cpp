@@ -58,7 +58,9 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
     const double sign = joint.block_b == block ? -1.0 : 1.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = in.joints->contacts[i];
-      const int ring = joint.lower == block ? c.ring[row] - 1 : c.ring[row];
+      // The ring of a contact is that of the block above, on either side of a support that of the block.
+      const bool is_under = joint.lower == block && joint.kind != JointKind::base;
+      const int ring = is_under ? c.ring[row] - 1 : c.ring[row];
       if (ring >= bed) w.add_force(c.point[row], sign * c.force[row]);
     }
   }

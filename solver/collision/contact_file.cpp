@@ -78,7 +78,6 @@ Patch make_patch(const Row& row, const Assembly& assembly) {
   Patch patch{row.block_a, row.block_b, JointKind::other, std::max(a.ring, b.ring), {}, 0.0};
   if (a.fixed || b.fixed) {
     patch.kind = JointKind::base;
-    patch.ring = 0;
   } else if (assembly.num_rings > 0) {
     patch.kind = a.ring == b.ring ? JointKind::head : JointKind::bed;
   }

@@ -23,6 +23,12 @@ double perimeter(const std::vector<Vec2>& polygon) {
   return length;
 }
 
+/// True if both are of one joint, and of one course: but a support belongs to no course, so that a stone of
+/// several courses touches it in one joint.
+bool same_joint(const JointPatch& p, const JointPatch& q) {
+  return p.kind == q.kind && (p.ring == q.ring || p.kind == JointKind::base);
+}
+
 /// The union of p and q in the plane of p, if it is convex.
 std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q, double tolerance) {
   std::vector<PatchCorner> corners = p.corners;
@@ -44,7 +50,7 @@ std::optional<JointPatch> convex_union(const JointPatch& p, const JointPatch& q,
 
 /// The union of two edge contacts in one line that meet or overlap.
 std::optional<JointPatch> collinear_union(const JointPatch& p, const JointPatch& q, double tolerance) {
-  if (p.touching.size() != 2 || q.touching.size() != 2 || p.kind != q.kind || p.ring != q.ring ||
+  if (p.touching.size() != 2 || q.touching.size() != 2 || !same_joint(p, q) ||
       p.normal.dot(q.normal) < kSameNormal)
     return std::nullopt;
   const Vec3 start = p.touching[0].on_a, line = p.touching[1].on_a - start;
@@ -73,7 +79,7 @@ std::optional<JointPatch> collinear_union(const JointPatch& p, const JointPatch&
 }  // namespace
 
 bool coplanar(const JointPatch& p, const JointPatch& q, double tolerance) {
-  if (!p.has_area() || !q.has_area() || p.kind != q.kind || p.ring != q.ring) return false;
+  if (!p.has_area() || !q.has_area() || !same_joint(p, q)) return false;
   if (p.normal.dot(q.normal) < 0.5) return false;
   return std::all_of(q.corners.begin(), q.corners.end(), [&](const PatchCorner& corner) {
     const LiftedPoint x = lift_to_faces(q, corner.position);
@@ -113,7 +119,6 @@ void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart&
   patch->ring = std::max(part_a.ring, part_b.ring);
   if (part_a.fixed || part_b.fixed) {
     patch->kind = JointKind::base;
-    patch->ring = 0;
   } else if (is_bed(face_a) && is_bed(face_b)) {
     patch->kind = JointKind::bed;
   } else if (face_a == FaceKind::head && face_b == FaceKind::head) {

@@ -41,7 +41,7 @@ struct JointPatch {
   int part_a = 0, part_b = 0;
   int face_a = -1, face_b = -1;  ///< CollisionFace::id; -1 for an edge or a vertex
   JointKind kind = JointKind::other;
-  int ring = 0;                 ///< course of the upper part, 0 at the base
+  int ring = 0;                 ///< course of the upper part; supports are below all courses
   Vec3 origin = Vec3::Zero();   ///< of the coordinates in the plane
   Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b; equals u x v
   Vec3 u = Vec3::UnitX(), v = Vec3::UnitY();
@@ -64,12 +64,13 @@ LiftedPoint lift_to_faces(const JointPatch& patch, const Vec2& x);
 void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart& part_b, FaceKind face_b,
               JointPatch* patch);
 
-/// True if q, of the same blocks, kind and ring as p, lies within `tolerance` (m) of the planes of p.
+/// True if q, of the same blocks, kind and (but on supports) ring as p, lies within `tolerance` (m) of the
+/// planes of p.
 bool coplanar(const JointPatch& p, const JointPatch& q, double tolerance);
 
-/// Merges patches of one block pair that have the same kind and ring, lie in one plane and have a convex
-/// union, and edge contacts that meet in one line. Cutting a block into slices therefore does not change its
-/// joints. A merged patch takes the identity of its first piece.
+/// Merges patches of one block pair that have the same kind and (but on supports) ring, lie in one plane and
+/// have a convex union, and edge contacts that meet in one line. Cutting a block into slices therefore does
+/// not change its joints. A merged patch takes the identity of its first piece.
 void merge_coplanar(std::vector<JointPatch>* patches, double tolerance);
 
 }  // namespace cupola

@@ -119,9 +119,17 @@ JointClass joint_class(const Assembly& assembly, const Patch& patch, bool of_pie
   return is_piece ? JointClass::pieces : JointClass::other;
 }
 
+bool selects(const RingJoints& group, JointClass kind, int ring) {
+  return group.from <= ring && ring <= group.to && applies_to(group.sort, kind);
+}
+
+bool have_law_of_pieces(const Joints& joints) {
+  return joints.pieces ||
+         std::ranges::find(joints.rings, RingJoints::Sort::pieces, &RingJoints::sort) != joints.rings.end();
+}
+
 JointTable::JointTable(const Joints& joints, int num_rings)
-    : has_pieces_(joints.pieces || std::ranges::find(joints.rings, RingJoints::Sort::pieces,
-                                                     &RingJoints::sort) != joints.rings.end()),
+    : has_pieces_(have_law_of_pieces(joints)),
       failure_(joints.failure),
       per_area_(joints.compliance.per == Compliance::Per::area),
       has_strength_(joints.have_strength()) {
@@ -140,11 +148,9 @@ JointTable::JointTable(const Joints& joints, int num_rings)
     const auto kind = static_cast<JointClass>(k);
     const auto& change = change_of(joints, kind);
     std::vector<ClassLaw> rings(std::max(1, num_rings), change ? apply_change(general, *change) : general);
-    for (const RingJoints& group : joints.rings) {
-      if (!applies_to(group.sort, kind)) continue;
-      for (int ring = std::max(0, group.from); ring <= std::min(group.to, num_rings - 1); ++ring)
-        rings[ring] = apply_change(rings[ring], group.law);
-    }
+    for (const RingJoints& group : joints.rings)
+      for (int ring = 0; ring < num_rings; ++ring)
+        if (selects(group, kind, ring)) rings[ring] = apply_change(rings[ring], group.law);
     for (ClassLaw& joint : rings) soften_half_rigid(&joint.law);
     laws_[k] = std::move(rings);
   }

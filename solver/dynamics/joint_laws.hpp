@@ -35,6 +35,10 @@ enum class JointClass { bed, head, herringbone_bed, herringbone_other, base, pie
 constexpr int kNumJointClasses = 8;
 /// `of_pieces`: the case gives joints of pieces a law; otherwise those that are bed or head remain so.
 JointClass joint_class(const Assembly& assembly, const Patch& patch, bool of_pieces);
+/// True if the group gives the joints of the class in the ring a law.
+bool selects(const RingJoints& group, JointClass kind, int ring);
+/// True if the case gives joints of pieces a law.
+bool have_law_of_pieces(const Joints& joints);
 
 /// The law of every class of joint in every ring. Laws of rings override laws of classes, and these override
 /// the general law of the case.

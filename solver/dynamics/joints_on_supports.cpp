@@ -146,6 +146,33 @@ std::string unlimited_text(const Case& scene, const Assembly& assembly, const Co
       counted(joints.size(), "joint"), block_label(assembly, a), block_label(assembly, b));
 }
 
+/// Groups of joints with a law of their own, or whose friction varies, that no joint as built belongs to.
+std::vector<std::string> idle_groups(const Case& scene, const Assembly& assembly,
+                                     const ContactSet& contacts) {
+  std::vector<std::pair<std::string, RingJoints>> groups;
+  Joints joints = scene.joints;
+  for (size_t i = 0; i < joints.rings.size(); ++i)
+    groups.emplace_back(fmt::format("joints.rings[{}]", i), joints.rings[i]);
+  if (const Analysis& analysis = scene.analysis;
+      analysis.type == AnalysisType::limit && analysis.limit.joints) {
+    groups.emplace_back("analysis.limit.joints", *analysis.limit.joints);
+    joints.rings.push_back(*analysis.limit.joints);
+  }
+  const bool of_pieces = have_law_of_pieces(joints);
+  std::vector<std::string> out;
+  for (const auto& [key, group] : groups) {
+    const auto is_of_group = [&](const Patch& patch) {
+      return selects(group, joint_class(assembly, patch, of_pieces), patch.ring);
+    };
+    if (std::ranges::any_of(contacts.patches, is_of_group)) continue;
+    out.push_back(fmt::format(
+        "{}: no joint of kind {} belongs to rings {} to {}, so that it has no effect; a joint belongs to the "
+        "ring of its upper block",
+        key, to_string(group.sort), group.from, std::min(group.to, std::max(0, assembly.num_rings - 1))));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<std::string> joint_warnings(const Case& scene, const Assembly& assembly,
@@ -153,6 +180,7 @@ std::vector<std::string> joint_warnings(const Case& scene, const Assembly& assem
   const OnSupports joints = joints_on_supports(scene, assembly, contacts);
   std::vector<std::string> warnings{soft_text(joints, assembly, scene.joints.compliance),
                                     unlimited_text(scene, assembly, contacts)};
+  for (std::string& text : idle_groups(scene, assembly, contacts)) warnings.push_back(std::move(text));
   if (scene.joints.have_strength()) warnings.push_back(weak_text(joints));
   std::erase(warnings, "");
   return warnings;

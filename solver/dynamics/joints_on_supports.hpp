@@ -15,7 +15,8 @@ namespace cupola {
 ///   thrust, and are no longer small. The sinking is estimated: these joints share the load like parallel
 ///   springs, and the load grows in proportion to the depth below the top.
 /// - They cannot carry the loads at their compressive strength, even evenly.
-/// And about all joints of blocks that touch at edges or corners only, whose forces no strength limits.
+/// And about all joints of blocks that touch at edges or corners only, whose forces no strength limits, and
+/// about laws of rings that no joint has.
 std::vector<std::string> joint_warnings(const Case& scene, const Assembly& assembly,
                                         const ContactSet& contacts);
 

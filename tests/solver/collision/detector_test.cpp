@@ -56,6 +56,27 @@ TEST(ContactDetector, FindsTheCornersOfABoxOnASlab) {
   }
 }
 
+// A stone of the last course on the far support of an arch. Beside a support, a stone of two courses has one
+// joint, of its first course.
+TEST(ContactDetector, JointsOnSupportsAreOfTheCourseOfTheStone) {
+  using namespace testing;
+  const ContactSet far_end = contacts_at_rest(
+      make_boxes({{.center = {0, 0, -0.5}, .fixed = true}, {.center = {0, 0, 0.5}, .ring = 10}}));
+  ASSERT_EQ(far_end.patches.size(), 1u);
+  EXPECT_EQ(far_end.patches[0].ring, 10);
+  Assembly beside = make_boxes({{.center = {-1, 0, 0}, .size = {1, 1, 4}, .fixed = true}});
+  add_block({.ring = 2}, &beside);
+  for (const int ring : {2, 3}) {
+    add_box_part({.center = {0, 0, ring - 2.5}}, false, false, &beside);
+    beside.parts.back().ring = ring;
+  }
+  compute_mass_properties(&beside);
+  const ContactSet at_side = contacts_at_rest(beside);
+  ASSERT_EQ(at_side.patches.size(), 1u);
+  EXPECT_EQ(at_side.patches[0].ring, 2);
+  EXPECT_EQ(at_side.points.size(), 4u);
+}
+
 TEST(ContactDetector, QuadratureWeightsSumToTheArea) {
   const ContactSet set = contacts_at_rest(box_on_floor(Vec3(1, 2, 3)), PatchPoints::quadrature);
   ASSERT_EQ(set.points.size(), 5u);

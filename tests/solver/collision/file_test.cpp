@@ -82,6 +82,13 @@ TEST_F(ContactFile, ProvidesTheContactsItLists) {
   EXPECT_EQ(detector.num_detections(), 1);
 }
 
+TEST_F(ContactFile, GivesJointsOnSupportsTheCourseOfTheirBlock) {
+  scene_.blocks[1].ring = 3;
+  DetectionOptions options;
+  options.contact_file = write(kHeader + "0,1,0,0,0,0,0,0,1,0,1\n");
+  EXPECT_EQ(ContactDetector(scene_, options).update(initial_poses(scene_)).patches.at(0).ring, 3);
+}
+
 TEST_F(ContactFile, ReproducesDetectedContacts) {
   const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const ContactSet found = ContactDetector(wall, {}).update(initial_poses(wall));

@@ -123,5 +123,24 @@ TEST(EdgesOfStrongJoints, AreNotLimitedAndSaidToBeSo) {
   EXPECT_TRUE(warnings_of(scene, testing::box_on_floor({1, 1, 1})).empty());
 }
 
+// Two stacks of two cubes, courses 0 and 1, and 2 and 3.
+TEST(LawsOfRings, AreSaidToSelectNoJoint) {
+  std::vector<testing::BoxSpec> boxes{{.center = {0, 0, -0.5}, .size = {20, 20, 1}, .fixed = true}};
+  for (int k = 0; k < 4; ++k) boxes.push_back({.center = {k < 2 ? 0.0 : 5.0, 0.0, 0.5 + k % 2}, .ring = k});
+  Assembly stacks = testing::make_boxes(boxes);
+  stacks.num_rings = 4;
+  Case scene = per_area(1e-10);
+  using enum RingJoints::Sort;
+  scene.joints.rings = {{2, 3, base, {}}, {1, 1, all, {}}, {3, 3, base, {}}};
+  scene.analysis.type = AnalysisType::limit;
+  scene.analysis.limit.joints = RingJoints{1, kLastRing, head, {}};
+  const std::vector<std::string> found = warnings_of(scene, stacks);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found[0].starts_with("joints.rings[2]: no joint of kind base belongs to rings 3 to 3, so"))
+      << found[0];
+  EXPECT_TRUE(found[1].starts_with("analysis.limit.joints: no joint of kind head belongs to rings 1 to 3,"))
+      << found[1];
+}
+
 }  // namespace
 }  // namespace cupola::joints_on_supports_test
