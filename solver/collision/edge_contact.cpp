@@ -179,6 +179,25 @@ JointPatch crossing_edges(const SeparatingAxis& axis) {
   return crossing;
 }
 
+/// The kind of the faces of both parts on which all points of a contact lie: of several that of the face of
+/// its axis, then a bed. Such a contact is part of the joint that these faces have, or would have if
+/// they were not turned against each other.
+FaceKind common_kind(const TwoParts& parts, FaceKind of_axis, const JointPatch& contact,
+                     const NarrowPhaseOptions& options) {
+  const auto lies_on = [&](FaceKind kind, bool of_a) {
+    return std::ranges::any_of(parts.model.faces_of(of_a ? parts.a : parts.b), [&](const CollisionFace& f) {
+      if (f.kind != kind && !(is_bed(f.kind) && is_bed(kind))) return false;
+      const PlacedFace face = placed(parts, f, of_a);
+      return std::ranges::all_of(contact.touching, [&](const LiftedPoint& x) {
+        return contains(face, of_a ? x.on_a : x.on_b, options.min_width);
+      });
+    });
+  };
+  for (const FaceKind kind : {of_axis, FaceKind::bed, FaceKind::head, FaceKind::wythe})
+    if (lies_on(kind, true) && lies_on(kind, false)) return kind;
+  return FaceKind::free;
+}
+
 }  // namespace
 
 std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int part_a, int part_b,
@@ -199,7 +218,7 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
   if (edge_axis.gap > options.margin) return std::nullopt;
 
   JointPatch contact;
-  FaceKind kind = FaceKind::free;
+  FaceKind kind = FaceKind::bed;
   for (const SeparatingAxis& axis : axes) {
     // If an edge crosses the border of a face, the crossing is one corner of the face contact; the edge
     // contact alone would lose the other corner. Therefore the edge axis is used only if its normal differs.
@@ -214,11 +233,12 @@ std::optional<JointPatch> find_edge_contact(const CollisionModel& model, int par
     contact = crossing_edges(edge_axis);
     for (const bool of_a : {true, false})
       if (extends_behind(parts, of_a, contact, options)) return std::nullopt;
-    kind = FaceKind::free;
+    kind = FaceKind::bed;
   }
   contact.part_a = part_a;
   contact.part_b = part_b;
-  classify(parts.a, kind, parts.b, FaceKind::free, &contact);
+  kind = common_kind(parts, kind, contact, options);
+  classify(parts.a, kind, parts.b, kind, &contact);
   return contact;
 }
 

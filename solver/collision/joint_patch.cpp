@@ -113,9 +113,12 @@ LiftedPoint lift_to_faces(const JointPatch& patch, const Vec2& x) {
   return {on_plane + height_a * patch.normal, on_plane + height_b * patch.normal, height_b - height_a};
 }
 
+bool is_bed(FaceKind kind) {
+  return kind == FaceKind::bed || kind == FaceKind::top;
+}
+
 void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart& part_b, FaceKind face_b,
               JointPatch* patch) {
-  const auto is_bed = [](FaceKind kind) { return kind == FaceKind::bed || kind == FaceKind::top; };
   patch->ring = std::max(part_a.ring, part_b.ring);
   if (part_a.fixed || part_b.fixed) {
     patch->kind = JointKind::base;

@@ -60,6 +60,9 @@ struct JointPatch {
 /// Points of both faces above and below the position x (m) in the plane of the patch.
 LiftedPoint lift_to_faces(const JointPatch& patch, const Vec2& x);
 
+/// Beds, also those of the last course.
+bool is_bed(FaceKind kind);
+
 /// Sets kind (`base` when a block is fixed, otherwise from the kinds of the faces) and ring of a patch.
 void classify(const CollisionPart& part_a, FaceKind face_a, const CollisionPart& part_b, FaceKind face_b,
               JointPatch* patch);

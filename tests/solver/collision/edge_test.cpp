@@ -259,7 +259,7 @@ TEST(EdgeContact, AtAReentrantEdgeDependsOnNoSplit) {
           if (mirrored) corner.x() = 2.0 - corner.x();
         if (mirrored) std::ranges::reverse(support);
         Assembly scene;
-        add_prism(support, true, &scene);
+        add_prism(support, false, &scene);
         add_block({}, &scene);
         for (std::size_t i = 0; i + 1 < slices.size(); ++i)
           for (const auto& part : parts) add_prism_part(part, slices[i], slices[i + 1], &scene);
@@ -267,6 +267,7 @@ TEST(EdgeContact, AtAReentrantEdgeDependsOnNoSplit) {
         const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
         ASSERT_EQ(set.patches.size(), 2u);
         const int edge = set.patches[0].area == 0.0 ? 0 : 1;
+        for (const Patch& patch : set.patches) EXPECT_EQ(patch.kind, JointKind::bed);
         EXPECT_NEAR(set.patches[1 - edge].area, std::hypot(1.0, 0.6), 1e-12);  // rounding, also below
         ASSERT_EQ(set.points.size(), 6u);
         for (const Contact& contact : set.points) {
@@ -275,6 +276,24 @@ TEST(EdgeContact, AtAReentrantEdgeDependsOnNoSplit) {
           EXPECT_LT((contact.normal - Vec3(mirrored ? -0.6 : 0.6, 0, 1).normalized()).norm(), 1e-12);
         }
       }
+}
+
+// A cube turned by 30 degrees whose lowest edge, between bed and head, stands on the bed of another, or leans
+// on its head.
+TEST(EdgeContact, IsOfTheJointWhoseFacesMeet) {
+  const Quaterniond turned(AngleAxisd(kPi / 6, Vec3::UnitY()));
+  const double reach = 0.5 * (std::cos(kPi / 6) + std::sin(kPi / 6));  // of an edge from the centroid
+  const struct {
+    Vec3 center;
+    JointKind kind;
+  } places[] = {{{0, 0, 0.5 + reach}, JointKind::bed}, {{0.5 + reach, 0, 0}, JointKind::head}};
+  for (const auto& place : places) {
+    const Assembly scene = make_boxes({{}, {.center = place.center, .rotation = turned}});
+    const ContactSet set = ContactDetector(scene, {}).update(initial_poses(scene));
+    ASSERT_EQ(set.patches.size(), 1u);
+    EXPECT_EQ(set.patches[0].area, 0.0);
+    EXPECT_EQ(set.patches[0].kind, place.kind);
+  }
 }
 
 // A stone slides over the border between both parts of its support, in which it sinks a little. Its sides
