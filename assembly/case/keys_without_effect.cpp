@@ -100,10 +100,6 @@ void refuse_keys_without_effect(const Case& scene, const Assembly& assembly) {
       assembly.num_rings > 0,
       "analysis.type: staged requires blocks in courses, and the import found none; use type: static");
   check_sequence(analysis.staged.sequence, assembly, refuse);
-  const auto is_arch = [](const Sheet& sheet) { return sheet.thrust_lines == Sheet::ThrustLines::one; };
-  refuse.unless(scene.joints.rings.empty() || std::ranges::none_of(assembly.sheets, is_arch),
-                "joints.rings: analysis.type: staged lays the rings of both haunches of an arch or barrel at "
-                "once, under one law; remove joints.rings");
 }
 
 }  // namespace cupola

@@ -45,6 +45,7 @@ struct Patch {
   int ring = 0;               ///< course of the upper block
   std::vector<Vec3> polygon;  ///< m, world, counter-clockwise about the normal from a to b
   double area = 0.0;          ///< m2
+  int course = 0;             ///< in stages of construction: with which the younger block is laid
 };
 
 /// All contacts of one configuration, sorted by block pair and identity.

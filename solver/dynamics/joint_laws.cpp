@@ -151,16 +151,26 @@ JointTable::JointTable(const Joints& joints, int num_rings)
     for (const RingJoints& group : joints.rings)
       for (int ring = 0; ring < num_rings; ++ring)
         if (selects(group, kind, ring)) rings[ring] = apply_change(rings[ring], group.law);
-    for (ClassLaw& joint : rings) soften_half_rigid(&joint.law);
     laws_[k] = std::move(rings);
   }
 }
 
+void JointTable::set_mortar(std::vector<RingJoints> by_course) {
+  Joints fresh;
+  fresh.rings = by_course;
+  has_strength_ = has_strength_ || fresh.have_strength();
+  mortar_ = std::move(by_course);
+}
+
 JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area, int multiplicity) const {
-  const std::vector<ClassLaw>& rings = laws_[static_cast<int>(joint_class(assembly, patch, has_pieces_))];
-  const ClassLaw& of_class = rings[std::clamp(patch.ring, 0, static_cast<int>(rings.size()) - 1)];
-  JointLaw law = of_class.law;
+  const JointClass kind = joint_class(assembly, patch, has_pieces_);
+  const std::vector<ClassLaw>& rings = laws_[static_cast<int>(kind)];
   CUPOLA_ASSERT(!rings.empty() && multiplicity >= 1);
+  ClassLaw of_class = rings[std::clamp(patch.ring, 0, static_cast<int>(rings.size()) - 1)];
+  for (const RingJoints& group : mortar_)
+    if (selects(group, kind, patch.course)) of_class = apply_change(of_class, group.law);
+  JointLaw law = of_class.law;
+  soften_half_rigid(&law);
   CUPOLA_ASSERT(!per_area_ || area > 0.0);
   const double share = per_area_ ? area : multiplicity;
   law.compliance_normal /= share;

@@ -52,6 +52,9 @@ class JointTable {
   JointTable() = default;
   explicit JointTable(const Joints& joints, int num_rings);
 
+  /// Laws of mortar by the courses with which joints are laid, which override all others.
+  void set_mortar(std::vector<RingJoints> by_course);
+
   bool has_strength() const { return has_strength_; }
   /// Law of a contact point of the patch with tributary area `area` (m2) and the given multiplicity (see
   /// Contact), at full friction. Blocks that touch at an edge or a corner have no strength.
@@ -59,6 +62,7 @@ class JointTable {
 
  private:
   std::array<std::vector<ClassLaw>, kNumJointClasses> laws_;  // by class, then ring
+  std::vector<RingJoints> mortar_;                            // by course
   RandomField friction_, strength_, compliance_;
   bool has_pieces_ = false;
   JointFailure failure_ = JointFailure::plastic;

@@ -33,14 +33,20 @@ std::optional<JointLawChange> law_at_age(const StagedConstruction& staged, int c
 
 }  // namespace
 
-void add_fresh_joints(const StagedConstruction& staged, int ring, Joints* joints) {
+std::vector<RingJoints> mortar_by_course(const StagedConstruction& staged, int ring) {
+  std::vector<RingJoints> laws;
   for (int age = ring; age >= 0; --age) {  // the youngest last
     const std::optional<JointLawChange> law = law_at_age(staged, age);
     if (!law) continue;
     const int from = ring - age, to = age == 0 ? std::numeric_limits<int>::max() : from;
-    joints->rings.push_back({from, to, RingJoints::Sort::laid_bed, *law});
-    if (staged.fresh.heads) joints->rings.push_back({from, to, RingJoints::Sort::laid_head, *law});
+    laws.push_back({from, to, RingJoints::Sort::laid_bed, *law});
+    if (staged.fresh.heads) laws.push_back({from, to, RingJoints::Sort::laid_head, *law});
   }
+  return laws;
+}
+
+bool is_fresh(const StagedConstruction& staged, int courses) {
+  return law_at_age(staged, courses).has_value();
 }
 
 void set_fresh(double value, StagedConstruction* staged) {

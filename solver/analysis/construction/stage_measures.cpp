@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/analysis/construction/mortar_age.hpp"
 #include "solver/analysis/record/record.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 
@@ -29,21 +30,19 @@ Frame stage_frame(const Construction& building, const StaticSolution& solution) 
         Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * turned_by(state.rotation[block]);
     frame.blocks.quaternion_wxyz[block] = {total.w(), total.x(), total.y(), total.z()};
   }
-  for (int i = 0; i < frame.contacts.size(); ++i)
-    frame.contacts.ring[i] = building.site().rings[problem.contacts.points[i].patch];
   return frame;
 }
 
 double head_squeeze(const Construction& building, const StaticSolution& solution) {
   const BuildingSite& site = building.site();
   const BuiltState& state = building.state();
+  const StagedConstruction& staged = site.scene.analysis.staged;
   const std::vector<int>& rows = building.problem().rows;
   double squeeze = 0.0;
   for (size_t k = 0; k < rows.size(); ++k) {
     const Contact& contact = site.contacts.points[rows[k]];
     const Patch& patch = site.contacts.patches[contact.patch];
-    if (patch.kind != JointKind::head || patch.ring <= state.ring - site.scene.analysis.staged.fresh.courses)
-      continue;
+    if (patch.kind != JointKind::head || !is_fresh(staged, std::max(0, state.ring - patch.course))) continue;
     const BuiltContact& joint = state.joints[rows[k]];
     const Vec3 u = relative_velocity(solution.step.problem, static_cast<int>(k), solution.step_solution.v);
     const double gap = joint.gap + solution.h * u[0];

@@ -54,11 +54,8 @@ BuildingSite::BuildingSite(const Case& the_case, const Assembly& of_it)
       assembly(of_it),
       course(laying_courses(of_it)),
       contacts(ContactDetector(of_it, detection_options(the_case)).update(initial_poses(of_it))) {
-  for (Patch& patch : contacts.patches) {
-    rings.push_back(patch.ring);
-    // A joint is as old as the younger of its blocks, though two uprights may touch only in courses above.
-    patch.ring = std::max(course[patch.block_a], course[patch.block_b]);
-  }
+  // A joint is as old as the younger of its blocks, though two uprights may touch only in courses above.
+  for (Patch& patch : contacts.patches) patch.course = std::max(course[patch.block_a], course[patch.block_b]);
 }
 
 bool BuildingSite::is_held(int block, int ring) const {
@@ -70,7 +67,6 @@ Model stage_model(const BuildingSite& site, const BuiltState& state, const std::
   Case at = site.scene;
   StagedConstruction staged = at.analysis.staged;
   if (trial) set_fresh(*trial, &staged);
-  add_fresh_joints(staged, state.ring, &at.joints);
   at.supports = {};  // their motion is part of the state
   if (!state.complete()) {
     at.loads = Loads{};
@@ -78,6 +74,7 @@ Model stage_model(const BuildingSite& site, const BuiltState& state, const std::
     at.loads.dead_load_time = site.scene.loads.dead_load_time;
   }
   Model model = make_model(at, site.assembly);
+  model.joints.set_mortar(mortar_by_course(staged, state.ring));
   std::vector<int> blocks = model.free_blocks;
   std::erase_if(blocks, [&](int block) { return !state.laid[block] || site.is_held(block, state.ring); });
   set_free(std::move(blocks), &model);

@@ -39,9 +39,7 @@ struct BuildingSite {
   const Case& scene;
   const Assembly& assembly;
   std::vector<int> course;  ///< with which each block is laid, laying_courses()
-  ContactSet
-      contacts;  ///< of the complete assembly as designed; the ring of a patch is the course of its age
-  std::vector<int> rings;  ///< of the patches as detected
+  ContactSet contacts;      ///< of the complete assembly as designed
 
   BuildingSite(const Case& scene, const Assembly& assembly);
   /// A support, or a block so far below course `ring` that it counts as one.

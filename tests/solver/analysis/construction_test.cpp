@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "solver/analysis/construction/mortar_age.hpp"
+#include "solver/analysis/construction/stage_problem.hpp"
 #include "tests/solver/construction_runs.hpp"
 
 // What construction carries from stage to stage, what it holds, and the age of its mortar.
@@ -244,6 +245,36 @@ TEST(Construction, HaunchesOfAnArchCarryTheSame) {
   }
 }
 
+// Two stones of two courses are laid with the lower one. Their joint has a part in either course, each under
+// the law of its ring; both are as old as the lower course.
+TEST(Construction, LawsOfRingsHoldForTheSameJointsAsInStatics) {
+  Assembly uprights = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {9, 9, 1}, .fixed = true}});
+  for (const double x : {0.0, 1.0}) {
+    testing::add_block({}, &uprights);
+    uprights.blocks.back().num_rings = 2;
+    for (const int ring : {0, 1}) {
+      testing::add_box_part({.center = {x, 0, 0.5 + ring}}, false, false, &uprights);
+      uprights.parts.back().ring = ring;
+    }
+  }
+  uprights.num_rings = 2;
+  compute_mass_properties(&uprights);
+  Case scene = course_case(0.0, 0.6);
+  scene.joints.rings = {{1, 1, RingJoints::Sort::all, testing::joint_law(0.9, {})}};
+  scene.analysis.staged.fresh.heads = true;
+  scene.analysis.staged.fresh.friction = 0.1;
+  const BuildingSite site(scene, uprights);
+  ASSERT_EQ(site.contacts.patches.size(), 4u) << "two on the floor, and two between the stones";
+  BuiltState state;
+  state.laid.assign(uprights.blocks.size(), 1);
+  for (const int laying : {0, 1}) {
+    state.ring = laying;
+    const Model model = stage_model(site, state, {});
+    for (const Patch& patch : site.contacts.patches)
+      EXPECT_EQ(model.joints.law(uprights, patch, 1.0).mu, laying == 0 ? 0.1 : patch.ring == 1 ? 0.9 : 0.6);
+  }
+}
+
 // Ages of 0 and 1 course, interpolated at 5 days for courses of 5 days.
 TEST(Construction, CuringInterpolatesBetweenAges) {
   StagedConstruction staged;
@@ -252,13 +283,25 @@ TEST(Construction, CuringInterpolatesBetweenAges) {
   young.cohesion = 1000.0;
   old.cohesion = 5000.0;
   staged.curing = {{0.0, young}, {20.0, old}};
-  Joints joints;
-  add_fresh_joints(staged, 10, &joints);
-  ASSERT_EQ(joints.rings.size(), 5u) << "ages of 0, 5, 10, 15 and 20 days";
-  for (const RingJoints& group : joints.rings) {
+  const std::vector<RingJoints> laws = mortar_by_course(staged, 10);
+  ASSERT_EQ(laws.size(), 5u) << "ages of 0, 5, 10, 15 and 20 days";
+  for (const RingJoints& group : laws) {
     EXPECT_TRUE(group.from == 10 || group.from == group.to);
     EXPECT_DOUBLE_EQ(*group.law.cohesion, 1000.0 + 1000.0 * (10 - group.from));
   }
+}
+
+// Mortar that cures over ages of 0 and 1 course is fresh as long as that of the two courses laid last.
+TEST(Construction, CuringMortarIsFreshUntilItHardens) {
+  StagedConstruction curing, plain;
+  plain.fresh.courses = 2;
+  for (StagedConstruction* staged : {&curing, &plain}) staged->fresh.friction = 0.3;
+  curing.fresh.courses = 1;  // replaced
+  curing.curing = {{0.0, testing::joint_law(0.3, 0.0)}, {1.0, testing::joint_law(0.3, 0.0)}};
+  for (const int courses : {0, 1, 2, 3})
+    EXPECT_EQ(is_fresh(curing, courses), is_fresh(plain, courses)) << courses;
+  EXPECT_TRUE(is_fresh(plain, 1));
+  EXPECT_FALSE(is_fresh(plain, 2));
 }
 
 // Two courses of weight q per area down the slope, half a day apart, in mortar that hardens from c to 2.5 q

@@ -186,7 +186,10 @@ TEST(Staged, AJointOfUprightsIsAsOldAsTheYoungerOne) {
     if (part.block != 0) part.ring = 2;
   const Case scene = staged_case(0.6, 0.5);
   const BuildingSite site(scene, boxes);
-  for (const Patch& patch : site.contacts.patches) EXPECT_EQ(patch.ring, patch.block_b == 1 ? 0 : 1);
+  for (const Patch& patch : site.contacts.patches) {
+    EXPECT_EQ(patch.course, patch.block_b == 1 ? 0 : 1);
+    EXPECT_EQ(patch.ring, 2);
+  }
 }
 
 TEST(Staged, RefusesAFirstRingAboveTheLast) {
