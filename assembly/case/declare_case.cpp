@@ -47,7 +47,8 @@ void declare_heat_rules(Section& s, const Case& the_case) {
   const Analysis& analysis = the_case.analysis;
   const bool is_static = analysis.type == AnalysisType::static_;
   s.rule(is_static || analysis.type == AnalysisType::path || analysis.type == AnalysisType::dynamic, "loads",
-         "heat requires analysis.type: static, path or dynamic; admissible forces do not depend on it");
+         "heat requires analysis.type: static, path or dynamic; admissible forces do not depend on it, and "
+         "stages are computed at one temperature");
   s.rule(analysis.cyclic_sectors == 1 && !analysis.sleep, "loads",
          "heat excludes analysis.cyclic_sectors and analysis.sleep");
   for (size_t i = 0; i < the_case.loads.heat.size(); ++i)

@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/case/case_times.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/case/plausible_range.hpp"
 #include "assembly/model/applied_loads.hpp"
+#include "assembly/model/block_names.hpp"
 #include "assembly/model/laying_course.hpp"
 
 namespace cupola {
@@ -134,15 +137,24 @@ std::vector<std::string> spread_beside(const Loads& loads, const Assembly& assem
 std::vector<std::string> felt_by_no_stage(const Case& scene, const Assembly& assembly) {
   const StagedConstruction& staged = scene.analysis.staged;
   if (scene.analysis.type != AnalysisType::staged) return {};
-  int top = 0;
-  for (const Block& block : assembly.blocks) top = std::max(top, laying_course(assembly, block));
-  const bool completed = staged.last_ring < 0 || laying_course(assembly, staged.last_ring) >= top;
+  const int top = last_course(assembly);
+  const bool completed = completes(assembly, staged.last_ring);
   const bool feels_supports = std::ranges::any_of(assembly.blocks, [&](const Block& block) {
     return !block.fixed && laying_course(assembly, block) == 0 &&
            !is_held(assembly, block, top, staged.hold_below);
   });
   std::vector<std::string> out;
-  if (!completed && !applied_loads(scene.loads, assembly).empty())
+  const std::vector<PointForce> loads = applied_loads(scene.loads, assembly);
+  std::set<int> held;
+  for (const PointForce& load : loads)
+    if (is_held(assembly, assembly.blocks[static_cast<size_t>(load.block)], top, staged.hold_below))
+      held.insert(load.block);
+  if (completed && !held.empty())
+    out.push_back(
+        fmt::format("loads: no joint feels those on {}, the first {}, because analysis.staged.hold_below = "
+                    "{} holds these blocks",
+                    counted(held.size(), "block"), block_label(assembly, *held.begin()), staged.hold_below));
+  if (!completed && !loads.empty())
     out.push_back(
         fmt::format("loads: all but the weight act on the complete model only, which "
                     "analysis.staged.last_ring = {} never reaches",

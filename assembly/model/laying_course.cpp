@@ -20,6 +20,16 @@ int laying_course(const Assembly& assembly, const Block& block) {
                   laying_course(assembly, block.ring + block.num_rings - 1));
 }
 
+int last_course(const Assembly& assembly) {
+  int last = 0;
+  for (const Block& block : assembly.blocks) last = std::max(last, laying_course(assembly, block));
+  return last;
+}
+
+bool completes(const Assembly& assembly, int last_ring) {
+  return last_ring < 0 || laying_course(assembly, last_ring) >= last_course(assembly);
+}
+
 bool is_held(const Assembly& assembly, const Block& block, int course, int hold_below) {
   if (block.fixed || hold_below < 0) return false;
   const int own = laying_course(assembly, block);

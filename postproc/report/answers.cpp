@@ -232,10 +232,12 @@ KeyNumber margin_answer(const Evaluation& e) {
   if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
     return least_answer(e);
   if (!at_rest(e)) {
-    const bool sought = e.scene.analysis.robustness > 0;
+    const bool sought = e.scene.analysis.robustness > 0, staged = is_stage(e.last.frame.role);
     return {sought ? "Horizontal acceleration" : "Margin", falls(e.summary) ? "none" : "unknown",
             lack_of_equilibrium(e.summary, e.last.frame.role) +
-                (sought ? "" : "; to compute what it lacks: " + command_for_margins(e))};
+                (sought   ? ""
+                 : staged ? "; to compute whether fresh mortar could hold it: " + command_for_margins(e)
+                          : "; to compute what it lacks: " + command_for_margins(e))};
   }
   if (e.last.frame.role == FrameRole::path) {
     if (const double latest = std::ranges::max(e.times); latest > e.times.back())

@@ -11,6 +11,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/case/limit_parameter.hpp"
+#include "assembly/model/laying_course.hpp"
 #include "postproc/evaluation/margin.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/answers.hpp"
@@ -250,6 +251,11 @@ std::string reason_for_verdict(const Evaluation& e) {
     text = limit_text(e);
   else
     text = verdict_text(s, e.last.frame.role);
+  if (const int last = e.scene.analysis.staged.last_ring;
+      is_stage(e.last.frame.role) && !completes(e.assembly, last))
+    text += fmt::format(
+        " Computed up to course {} only, with `analysis.staged.last_ring`; the last of the model is {}.",
+        last, e.assembly.num_rings - 1);
   if (const std::string how = how_it_gives_way(e); !how.empty() && !s.critical) text += " It " + how + ".";
   if (const std::string parts = parts_sentence(e); !parts.empty()) text += " " + parts;
   return text;

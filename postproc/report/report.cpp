@@ -92,12 +92,15 @@ std::string case_section(const Evaluation& e) {
   row("Joint compliance",
       fmt::format("normal {:g}, tangential {:g} {}", c.normal, c.tangential, unit) +
           (c.relative ? fmt::format(": {:g} of a block's size under its weight", *c.relative) : ""));
+  const bool stages = is_stage(e.last.frame.role);
   if (!s.ranges.empty())
     row("State shown",
         has_chosen(s.ranges) ? "the one that the compliances choose" : "one of the admissible ones");
   else
-    row("Time shown",
-        fmt::format("{:g} s, frame {} of {}", e.last.frame.time, e.last_frame + 1, e.times.size()));
+    row(stages ? "Stage shown" : "Time shown",
+        fmt::format("{}, frame {} of {}",
+                    stages ? e.last.frame.owner : fmt::format("{:g} s", e.last.frame.time), e.last_frame + 1,
+                    e.times.size()));
   out += "</dl>\n";
   if (!e.assembly.check_report.empty())
     out += "<details><summary>Checks of the geometry</summary><pre>" + markup_text(e.assembly.check_report) +

@@ -6,6 +6,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/model/block_names.hpp"
+#include "assembly/model/laying_course.hpp"
 #include "solver/analysis/construction/stage_measures.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 
@@ -14,10 +15,12 @@ namespace {
 
 using Least = StagedConstruction::Least;
 
-/// "stage 3 in course 20 (block c20-7)".
+/// "stage 3 in course 20 (block c20-7)": of several courses laid at once, the last.
 std::string stage_name(int number, const LaidBlocks& laid, const Assembly& assembly) {
+  const int first_of_last = *std::ranges::max_element(
+      laid.blocks, {}, [&](int block) { return laying_course(assembly, assembly.blocks[block]); });
   return fmt::format("stage {} in course {} (block {})", number, laid.ring,
-                     block_label(assembly, laid.blocks.front()));
+                     block_label(assembly, first_of_last));
 }
 
 /// "no fresh cohesion up to 1 MPa holds stage 3 in course 3 (block 8)"; `tried`: the largest value.

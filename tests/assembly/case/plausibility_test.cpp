@@ -288,6 +288,8 @@ TEST(ImplausibleForBlocks, WhatNoStageFeels) {
   EXPECT_EQ(starts(), "loads,supports.moves,");
   scene.analysis.staged.last_ring = -1;
   scene.analysis.staged.hold_below = 0;
+  EXPECT_EQ(starts(), "loads,supports.moves,") << "the block of the load is held";
+  scene.loads.forces[0].block = 2;
   EXPECT_EQ(starts(), "supports.moves,");
 }
 

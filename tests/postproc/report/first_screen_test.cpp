@@ -83,6 +83,8 @@ TEST(FirstScreen, AConstructionThatFallsIsAdvisedToSearchWhatItsJointsCanHave) {
                                     std::pair(Compliance::Per::area, "`analysis.staged.least: cohesion`")}) {
     e.scene.joints.compliance.per = per;
     EXPECT_TRUE(margin_answer(e).detail.ends_with(advice)) << margin_answer(e).detail;
+    EXPECT_NE(margin_answer(e).detail.find("whether fresh mortar could hold it"), std::string::npos)
+        << "not what tips or is crushed";
   }
 }
 

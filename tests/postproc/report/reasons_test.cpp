@@ -212,6 +212,20 @@ TEST(Reasons, KnowsThatTheJointsOfSomeRingsMayCrush) {
   EXPECT_EQ(certain_sentence(e).find("no crushing"), std::string::npos) << certain_sentence(e);
 }
 
+TEST(Reasons, SayUpToWhichCourseAConstructionWasComputed) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::staged;
+  e.last.frame.role = FrameRole::stage;
+  for (const int all : {-1, 2}) {
+    e.scene.analysis.staged.last_ring = all;
+    EXPECT_EQ(reason_for_verdict(e), "Every stage of the construction stands.");
+  }
+  e.scene.analysis.staged.last_ring = 1;
+  EXPECT_EQ(reason_for_verdict(e),
+            "Every stage of the construction stands. Computed up to course 1 only, with "
+            "`analysis.staged.last_ring`; the last of the model is 2.");
+}
+
 TEST(Reasons, SaysThatNoEquilibriumExistsOnlyIfThatIsProven) {
   Summary summary;
   for (const auto& [status, lack] : {std::pair{Status::moving, "no equilibrium exists."},

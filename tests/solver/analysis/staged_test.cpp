@@ -177,6 +177,20 @@ TEST(Staged, WhatLiesBelowTheFirstRingMustStandByItself) {
   }
 }
 
+// The same beam on a slab, which is laid with it.
+TEST(Staged, CoursesLaidAtOnceAreNamedByTheLast) {
+  const Assembly boxes =
+      testing::make_boxes({{.center = {0, 0, -1.5}, .fixed = true},
+                           {.center = {0, 0, -0.5}, .ring = 0},
+                           {.center = {0.6, 0, 0.25}, .size = {2, 1, 0.5}, .ring = 1},
+                           {.center = {-0.2, 0, 0.75}, .size = {0.4, 1, 0.5}, .density = 5000.0, .ring = 2}});
+  Case scene = staged_case(0.6, 0.5);
+  scene.analysis.staged.first_ring = 2;
+  const Built built = build(scene, boxes);
+  EXPECT_NE(built.summary.message.find("stage 0 in course 1 (block 2): the courses below"), std::string::npos)
+      << built.summary.message;
+}
+
 // Two uprights, laid with the courses 0 and 1, touch in course 2.
 TEST(Staged, AJointOfUprightsIsAsOldAsTheYoungerOne) {
   Assembly boxes = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {10, 10, 1}, .fixed = true},
