@@ -13,12 +13,33 @@
 namespace cupola {
 namespace {
 
-/// Ring whose direction defines the upper side of a joint. Supports belong to no ring: their neighbour
-/// decides.
-int reference_ring(const Assembly& assembly, const Joint& joint) {
-  const Block &a = assembly.blocks[joint.block_a], &b = assembly.blocks[joint.block_b];
-  if (a.fixed == b.fixed) return joint.ring;
-  return a.fixed ? b.ring : a.ring;
+/// False where a support stands beside a block, whose beds, or without any the course, face elsewhere.
+bool is_on_bed(const Shell& shell, const Block& block, int number, const Vec3& normal) {
+  constexpr double kFacing = 0.5;  // cosine; in a flat dome a third of a ring and one of its ends have 0.64
+  bool has_bed = false;
+  for (const int bed : {block.ring, shell.bed_above(block.ring + block.num_rings - 1)}) {
+    if (bed < 0 || bed >= static_cast<int>(shell.blocks.size())) continue;
+    const auto own = std::ranges::lower_bound(shell.blocks[bed], number, {}, &BlockBed::block);
+    if (own == shell.blocks[bed].end() || own->block != number) continue;
+    if (std::abs(normal.dot(own->plane.normal)) >= kFacing) return true;
+    has_bed = true;
+  }
+  return !has_bed && std::abs(normal.dot(shell.direction(block.ring))) >= kFacing;
+}
+
+/// Cosine of the normal of a joint with the direction from ring to ring; 0 where it is upright or of a support
+/// beside a block. Supports belong to no ring: their neighbour decides.
+double facing(const Assembly& assembly, const Shell& shell, const JointWrench& joint) {
+  constexpr double kUpright = 1e-9;  // rounding of a model 1 km from the origin
+  const Vec3& normal = joint.patch.plane.normal;
+  int ring = joint.ring;
+  if (joint.kind == JointKind::base) {
+    const int number = assembly.blocks[joint.block_a].fixed ? joint.block_b : joint.block_a;
+    if (!is_on_bed(shell, assembly.blocks[number], number, normal)) return 0.0;
+    ring = assembly.blocks[number].ring;
+  }
+  const double cosine = normal.dot(shell.direction(ring));
+  return std::abs(cosine) > kUpright ? cosine : 0.0;
 }
 
 /// True where the lower block is of the last course of an arch that springs from the sheet of the upper one.
@@ -28,18 +49,18 @@ bool stands_on_other_sheet(const Assembly& assembly, const JointWrench& joint) {
          assembly.sheet_of(upper.ring) != assembly.sheet_of(lower.ring);
 }
 
-/// Sets which block of a bed or base joint lies further along the shell: the one to which its normal points.
-/// Of an upright joint, whose normal points neither way, a support is the lower block, else the lower course;
-/// stones of one course lean on each other, and none is carried.
+/// Sets which block of a bed or base joint lies further along the shell: between two courses of a sheet that
+/// of the higher number, else the one to which the normal points, of an upright bed joint the higher course.
+/// Stones of one course lean on each other and on a support beside them, and none is carried.
 void find_upper(const Assembly& assembly, const Shell& shell, JointWrench* joint) {
-  constexpr double kUpright = 1e-9;  // cosine, rounding of a model 1 km from the origin
-  const int a = joint->block_a, b = joint->block_b;
-  double towards_b = joint->patch.plane.normal.dot(shell.direction(reference_ring(assembly, *joint)));
-  if (std::abs(towards_b) <= kUpright)
-    towards_b = ring_above_support(assembly.blocks[b]) - ring_above_support(assembly.blocks[a]);
+  const Block &a = assembly.blocks[joint->block_a], &b = assembly.blocks[joint->block_b];
+  double towards_b = facing(assembly, shell, *joint);
+  const bool apart = a.ring + a.num_rings <= b.ring || b.ring + b.num_rings <= a.ring;
+  const bool numbered = apart && assembly.sheet_of(a.ring) == assembly.sheet_of(b.ring);
+  if (joint->kind == JointKind::bed && (numbered || towards_b == 0.0)) towards_b = b.ring - a.ring;
   if (towards_b == 0.0) return;
-  joint->upper = towards_b > 0.0 ? b : a;
-  joint->lower = towards_b > 0.0 ? a : b;
+  joint->upper = towards_b > 0.0 ? joint->block_b : joint->block_a;
+  joint->lower = towards_b > 0.0 ? joint->block_a : joint->block_b;
   joint->carried = stands_on_other_sheet(assembly, *joint) ? -1 : joint->upper;
 }
 

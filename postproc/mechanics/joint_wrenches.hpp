@@ -16,7 +16,8 @@ namespace cupola {
 /// pressure is the centroid of the patch, and what follows from the direction or place of its force is NaN.
 /// Where only its normal forces cancel, so is what follows from their place.
 struct JointWrench : Joint {
-  /// Blocks of a bed or base joint; -1 for other kinds, and of an upright joint within a course.
+  /// Blocks of a bed or base joint; -1 for other kinds, of an upright joint within a course, and where a support
+  /// stands beside the stone.
   int upper = -1, lower = -1;
   /// The upper block, whose course the joint carries. -1 without one, and where the last course of an arch
   /// stands on another sheet: the joint is over that course, and carries none.
@@ -58,7 +59,7 @@ struct JointWrenches {
 
 /// Sums the contacts of every joint. The upper block of a bed or base joint is the one further along the
 /// shell in the direction from ring to ring; the right support of an arch therefore lies above its last
-/// joint. A support behind an upright joint carries the stone. `unbalanced`: N, see floor_of().
+/// joint. A support beside a stone, as a wall, does not carry it. `unbalanced`: N, see floor_of().
 JointWrenches joint_wrenches(const Assembly& assembly, const ContactTable& contacts, const Shell& shell,
                              double unbalanced = 0.0);
 

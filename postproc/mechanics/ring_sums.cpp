@@ -87,16 +87,18 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
 }
 
 /// Sums what blocks push outwards across the cuts of their stack on blocks below, whichever way their joints
-/// face: blocks of several courses pass the cuts above their first.
+/// face: blocks of several courses pass the cuts above their first. And on supports beside them.
 void add_outward_between_rings(const Assembly& assembly, const JointWrenches& joints,
                                std::vector<RingSum>* rings) {
   for (const JointWrench& joint : joints.wrenches) {
     const int a = ring_above_support(assembly.blocks[joint.block_a]),
               b = ring_above_support(assembly.blocks[joint.block_b]);
     const auto [lower, upper] = std::minmax(a, b);
-    if (lower < assembly.stack_of(std::max(upper, 0)).first) continue;  // a support, or another stack
+    const bool beside = upper >= 0 && joint.kind == JointKind::base && joint.upper < 0;
+    if (!beside && lower < assembly.stack_of(std::max(upper, 0)).first)
+      continue;  // a support, or another stack
     const Vec3 on_upper = wrench_on(joint, b > a ? joint.block_b : joint.block_a).force;
-    for (int k = lower + 1; k <= upper; ++k)
+    for (int k = beside ? upper : lower + 1; k <= upper; ++k)
       (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(on_upper);
   }
 }

@@ -22,9 +22,9 @@ int rings_present(const Assembly& assembly) {
   return rings;
 }
 
-/// Direction from ring to ring, from the centroids of neighbouring rings: upwards in a vault or wall, along
-/// the axis of an arch.
-std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, const Vec3& up) {
+/// Direction from ring to ring: upwards in a vault or wall, where cuts shift the centroids of rings sideways,
+/// and in an arch from the centroids of neighbouring rings.
+std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings) {
   std::vector<Vec3> centroid(static_cast<size_t>(num_rings), Vec3::Zero());
   std::vector<double> volume(centroid.size(), 0.0);
   for (const Part& part : assembly.parts) {
@@ -34,8 +34,10 @@ std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings, c
     volume[part.ring] += solid.volume;
   }
   for (size_t k = 0; k < centroid.size(); ++k) centroid[k] /= volume[k];
-  std::vector<Vec3> progress(centroid.size(), up);
-  for (size_t k = 0; k < centroid.size() && centroid.size() > 1; ++k) {
+  std::vector<Vec3> progress(centroid.size(), Vec3::UnitZ());
+  for (size_t k = 0; k < centroid.size(); ++k) {
+    const Sheet* sheet = assembly.sheet_of(static_cast<int>(k));
+    if (!sheet || sheet->thrust_lines != Sheet::ThrustLines::one) continue;
     const auto [first, end] = assembly.stack_of(static_cast<int>(k));
     const size_t last = std::min(static_cast<size_t>(end), centroid.size()) - 1;
     const Vec3 d = centroid[std::min(k + 1, last)] - centroid[k > static_cast<size_t>(first) ? k - 1 : k];
@@ -168,7 +170,7 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
   shell.up = up;
   const int num_rings = rings_present(assembly);
   if (num_rings == 0) return shell;
-  shell.progress = progress_directions(assembly, num_rings, up);
+  shell.progress = progress_directions(assembly, num_rings);
   for (int ring = 0; ring < num_rings; ring = shell.ends.back())
     shell.ends.push_back(std::min(assembly.stack_of(ring).second, num_rings));
   shell.beds.resize(static_cast<size_t>(num_rings) + shell.ends.size());

@@ -14,7 +14,9 @@ ShellAxes level_stone(const Vec3& rounding, FaceKind ends = FaceKind::head) {
   Assembly a = test::column(1);
   for (FaceKind& kind : a.face_kinds)
     if (kind == FaceKind::head) kind = ends;
-  return shell_axes(a, shell_of(a, (Vec3::UnitY() + rounding).normalized()))[1];
+  Shell shell = shell_of(a, Vec3::UnitZ());
+  shell.progress = {(Vec3::UnitY() + rounding).normalized()};
+  return shell_axes(a, shell)[1];
 }
 
 TEST(ShellAxes, OfALevelCrownStoneLieAcrossItsBarrel) {
@@ -51,6 +53,16 @@ TEST(ShellAxes, OfAKeyStoneAreAtAPole) {
     EXPECT_NEAR(key_stone(turn).hoop_force, force, 1e-12 * force) << turn;
     EXPECT_EQ(key_stone(turn).meridional_force, key_stone(turn).hoop_force);
   }
+}
+
+// The centroids of the courses of a wall with a raking top are far apart.
+TEST(Shell, OfAWallClimbs) {
+  Assembly a = test::column(2);
+  for (size_t v = 16; v < a.vertices.size(); ++v) a.vertices[v].x() += 10.0;  // m, of the second course
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  EXPECT_EQ(shell.direction(0), Vec3::UnitZ());
+  ASSERT_EQ(shell.beds[1].size(), 1u);
+  EXPECT_EQ(shell.beds[1].front().block, 2);
 }
 
 }  // namespace
