@@ -391,7 +391,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   find_what_gives_way(results, &e);
   e.chains = chain_forces(e.assembly.chains, e.last.frame.ties);
   e.wythes = wythe_sums(e.assembly, e.shell, e.last.joints, e.last.frame.contacts, e.last.poses);
-  e.members = member_sums(e.assembly, e.last.joints, e.last.gravity, left_out);
+  e.members = member_sums(e.assembly, e.last.joints, scene.loads.gravity, left_out);
   count_lost_joints(results, &e);
   const bool has_lines = std::ranges::any_of(
       e.assembly.sheets, [](const Sheet& sheet) { return sheet.thrust_lines != Sheet::ThrustLines::none; });

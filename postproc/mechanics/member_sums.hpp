@@ -12,7 +12,7 @@ struct MemberSum {
   int ring = 0;
   int member = 0;               ///< index into Assembly::members
   int blocks = 0;               ///< its blocks that begin in the ring
-  double weight = 0.0;          ///< N, of these blocks
+  double weight = 0.0;          ///< N, of these blocks under `gravity`
   double vertical_force = 0.0;  ///< N, on the blocks above, positive upwards
   double share = 0.0;           ///< of the sum over all members; 0 if that is negligible
   double outward_force = 0.0;  ///< N, sum of the horizontal outward forces on the blocks below; NaN: no vault

@@ -260,7 +260,7 @@ TEST(Evaluation, OneBodyTipsInALargeModelToo) {
 
 // The forces of a limit analysis balance the loads at the stable end of its bracket, not those of the case.
 TEST(Evaluation, LimitAnalysisIsEvaluatedUnderItsLoads) {
-  const Assembly a = test::column(3);
+  const Assembly a = test::column_with_wythes();
   Case scene = column_case();
   scene.analysis.limit.parameter = LimitSearch::Parameter::acceleration;  // along x
   Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
@@ -270,6 +270,9 @@ TEST(Evaluation, LimitAnalysisIsEvaluatedUnderItsLoads) {
   summary.critical = CriticalValue{"acceleration", 0.2005, 0.2, 0.201};
   const Evaluation e = evaluated(a, {frame}, summary, scene, test::fresh_folder("results"));
   for (const RingSum& ring : e.rings) EXPECT_LT(ring.relative_difference, 1e-14);
+  double weight = 0.0;
+  for (const MemberSum& sum : e.members) weight += sum.weight;
+  EXPECT_NEAR(weight, summary.weight_N, 1e-12 * weight) << "rounding; without the acceleration";
 }
 
 TEST(Evaluation, LimitAnalysisIsEvaluatedAtItsThickness) {
