@@ -10,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include "postproc/evaluation/meridians.hpp"
+#include "postproc/mechanics/bed_crossing.hpp"
+#include "postproc/mechanics/block_pieces.hpp"
 
 namespace cupola {
 namespace {
@@ -25,12 +27,12 @@ double height_of(const Evaluation& e, int bed) {
   return sum / static_cast<double>(4 * facets.size());
 }
 
-/// The beds of the courses [first, end) that have blocks, of an arch in two flights, from the springing to the
-/// crown and from there down to the other one.
+/// The beds of the courses [first, end) that have blocks and a height, of an arch in two flights, from the
+/// springing to the crown and from there down to the other one.
 std::vector<std::vector<int>> flights_of(const Evaluation& e, int first, int end) {
   std::vector<int> beds;
   for (int k = first; k < end; ++k)
-    if (e.rings[k].blocks > 0) beds.push_back(k);
+    if (e.rings[k].blocks > 0 && std::isfinite(e.rings[k].height)) beds.push_back(k);
   if (beds.empty() || e.assembly.axis_of(first).thrust_lines != Sheet::ThrustLines::one) return {beds};
   const int closing = e.shell.bed_above(end - 1);
   if (beds.back() + 1 == end && !e.shell.beds[closing].empty()) beds.push_back(closing);
@@ -70,24 +72,20 @@ std::vector<std::pair<int, bool>> nearest_beds(const Evaluation& e, const Assemb
   return nearest;
 }
 
-/// Adds the resultants of all blocks that stand on a bed or that the bed runs through. An upright block of a
-/// wall is one convex part: the force half-way up is unknown, so the wrench at its foot is taken.
+/// Adds the resultants of all blocks that stand on a bed or that the bed runs through. That of a block which
+/// is one convex part acts at its foot.
 void add_resultants(const Evaluation& e, const ThrustInput& input, int bed, bool downwards,
-                    std::vector<BedResultant>* resultants) {
-  std::set<int> blocks;
-  for (const BedFacet& facet : e.shell.beds[bed]) blocks.insert(facet.block);
-  for (int b = 0; b < static_cast<int>(e.assembly.blocks.size()); ++b) {
+                    SectionEvaluation* section) {
+  for (const auto& [b, onwards] : wrenches_across(input, bed, section->beds)) {
     const Block& block = e.assembly.blocks[b];
-    const bool on_bed = blocks.contains(b);
-    if (block.fixed || (!on_bed && (block.ring >= bed || block.ring + block.num_rings <= bed))) continue;
-    const Wrench onwards = on_bed ? wrench_at_bed(input, b, bed) : e.last.from_below[b];
     const Wrench wrench = downwards ? -1.0 * onwards : onwards;
     const CentralAxis axis = central_axis(wrench);
     if (!axis.exists) continue;
-    const double height = height_of(e, on_bed ? bed : block.ring);
-    const Vec3 point = axis_in_plane(axis, wrench.force, {Vec3::UnitZ(), height});
-    resultants->push_back({b, block.kind, wrench, point, azimuth(e.assembly, b, b, point),
-                           couple_length(wrench, e.last.joints.floor)});
+    const bool at_foot = block.ring < bed && !is_divided(e.assembly, b);
+    const Vec3 point =
+        axis_in_plane(axis, wrench.force, {Vec3::UnitZ(), height_of(e, at_foot ? block.ring : bed)});
+    section->resultants.push_back({b, block.kind, wrench, point, azimuth(e.assembly, b, b, point),
+                                   couple_length(wrench, e.last.joints.floor)});
   }
 }
 
@@ -97,14 +95,16 @@ std::vector<SectionEvaluation> evaluate_sections(const Evaluation& e, const Asse
                                                  const std::vector<bool>& left_out) {
   const ThrustInput input = thrust_input(e, e.last);
   std::vector<SectionEvaluation> sections;
+  std::set<double> heights;
   for (const double height : e.scene.postproc.sections) {
+    if (!heights.insert(height).second) continue;
     SectionEvaluation section{height, {}, cut_by_plane(placed, {Vec3::UnitZ(), height}, left_out), {}};
     const std::vector<std::pair<int, bool>> beds = nearest_beds(e, placed, height);
-    if (section.polygons.empty() && (!left_out.empty() || beds.empty())) continue;  // nothing is there
-    for (const auto& [bed, downwards] : beds) {
-      section.beds.push_back(bed);
-      add_resultants(e, input, bed, downwards, &section.resultants);
-    }
+    const bool cuts = std::ranges::any_of(
+        section.polygons, [&](const CutPolygon& cut) { return !e.assembly.blocks[cut.block].fixed; });
+    if (!cuts && (!left_out.empty() || beds.empty())) continue;  // nothing is there but supports
+    for (const auto& [bed, downwards] : beds) section.beds.push_back(bed);
+    for (const auto& [bed, downwards] : beds) add_resultants(e, input, bed, downwards, &section);
     sections.push_back(std::move(section));
   }
   return sections;

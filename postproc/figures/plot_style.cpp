@@ -39,6 +39,9 @@ std::string describe(const ThrustLine& line) {
     text +=
         fmt::format(" It is undefined at {} of {}, where the resultant is negligible or runs along the bed.",
                     line.undefined, counted(line.points.size(), "bed"));
+  if (line.without_skins > 0)
+    text += fmt::format(" It has no point at {}, where the blocks have no inner or outer edge.",
+                        counted(line.without_skins, "bed"));
   return text;
 }
 

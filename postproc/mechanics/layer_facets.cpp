@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "postproc/mechanics/cut_facet.hpp"
 
 namespace cupola {
 namespace {
@@ -20,6 +25,19 @@ bool is_on_bed_below(const Assembly& assembly, const Part& part, int f) {
     });
   };
   return std::ranges::all_of(assembly.face(f), in_ring_below);
+}
+
+/// The facet of a cell with two corners on each of its layers; none of a stone that was cut.
+std::optional<BedFacet> whole_facet(const Assembly& assembly, int block, const std::vector<int>& corners) {
+  const auto depth = [&](int v) { return assembly.vertex_depths[v]; };
+  const auto [low, high] = std::ranges::minmax(corners, {}, depth);
+  std::vector<Vec3> inner, outer;
+  for (const int v : corners) (depth(v) == depth(low) ? inner : outer).push_back(assembly.vertices[v]);
+  if (inner.size() != 2 || outer.size() != 2) return std::nullopt;
+  const double parallel = (inner[0] - outer[0]).norm() + (inner[1] - outer[1]).norm();
+  const double crossed = (inner[0] - outer[1]).norm() + (inner[1] - outer[0]).norm();
+  if (crossed < parallel) std::swap(outer[0], outer[1]);
+  return BedFacet{block, inner[0], inner[1], outer[0], outer[1], false, depth(low), depth(high)};
 }
 
 /// Finds the innermost wythe of each drum or shell: it begins at the layer of depth 0 and ends at the next
@@ -48,24 +66,38 @@ void LayerFacets::add(const Part& part, int f, int bed) {
   if (internal && !is_on_bed_below(assembly_, part, f)) return;
   Cell& cell = cells_[{bed, part.block, part.slice, part.wythe}];
   cell.internal = internal;
+  const std::vector<Vec3> corners = face_points(assembly_, f);
+  cell.normal += polygon_area(corners) * polygon_plane(corners).normal;
   for (const int v : assembly_.face(f))
     if (std::ranges::find(cell.corners, v) == cell.corners.end()) cell.corners.push_back(v);
 }
 
 void LayerFacets::add_to(Shell* shell) const {
+  std::set<std::pair<int, int>> whole;  // (bed, block)
   for (const auto& [key, cell] : cells_) {
     const auto [bed, block, slice, wythe] = key;
-    const auto depth = [&](int v) { return assembly_.vertex_depths[v]; };
-    const auto [low, high] = std::ranges::minmax(cell.corners, {}, depth);
-    std::vector<Vec3> inner, outer;
-    for (const int v : cell.corners)
-      (depth(v) == depth(low) ? inner : outer).push_back(assembly_.vertices[v]);
-    if (inner.size() != 2 || outer.size() != 2) continue;  // of a stone that was cut
-    const double parallel = (inner[0] - outer[0]).norm() + (inner[1] - outer[1]).norm();
-    const double crossed = (inner[0] - outer[1]).norm() + (inner[1] - outer[0]).norm();
-    if (crossed < parallel) std::swap(outer[0], outer[1]);
-    shell->beds[bed].push_back(
-        {block, inner[0], inner[1], outer[0], outer[1], cell.internal, depth(low), depth(high)});
+    std::optional<BedFacet> facet = whole_facet(assembly_, block, cell.corners);
+    if (!facet) continue;
+    facet->internal = cell.internal;
+    shell->beds[bed].push_back(*facet);
+    whole.emplace(bed, block);
+  }
+  for (const auto& [key, cell] : cells_) {
+    const auto [bed, block, slice, wythe] = key;
+    if (whole.contains({bed, block})) continue;
+    std::vector<Vec3> corners;
+    std::vector<double> depths;
+    for (const int v : cell.corners) {
+      corners.push_back(assembly_.vertices[v]);
+      depths.push_back(assembly_.vertex_depths[v]);
+    }
+    std::optional<BedFacet> facet =
+        facet_around(block, corners, cell.normal.normalized(), growth(corners, depths));
+    if (!facet) continue;
+    facet->internal = cell.internal;
+    facet->from = std::ranges::min(depths);
+    facet->to = std::ranges::max(depths);
+    shell->beds[bed].push_back(*facet);
   }
 }
 

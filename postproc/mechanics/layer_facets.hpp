@@ -20,7 +20,8 @@ class LayerFacets {
 
  private:
   struct Cell {
-    std::vector<int> corners;  // vertices
+    std::vector<int> corners;    // vertices
+    Vec3 normal = Vec3::Zero();  // m2, times its area
     bool internal = false;
   };
   const Assembly& assembly_;

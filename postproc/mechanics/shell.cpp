@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
+#include "postproc/mechanics/bed_sides.hpp"
+#include "postproc/mechanics/cut_facet.hpp"
 #include "postproc/mechanics/layer_facets.hpp"
 #include "postproc/mechanics/skin_facet.hpp"
 
@@ -20,30 +22,6 @@ int rings_present(const Assembly& assembly) {
   if (assembly.num_rings == 0) return 0;
   for (const Part& part : assembly.parts) rings = std::max(rings, part.ring + 1);
   return rings;
-}
-
-/// Direction from ring to ring: upwards in a vault or wall, where cuts shift the centroids of rings sideways,
-/// and in an arch from the centroids of neighbouring rings.
-std::vector<Vec3> progress_directions(const Assembly& assembly, int num_rings) {
-  std::vector<Vec3> centroid(static_cast<size_t>(num_rings), Vec3::Zero());
-  std::vector<double> volume(centroid.size(), 0.0);
-  for (const Part& part : assembly.parts) {
-    if (part.ring < 0) continue;
-    const SolidProperties solid = solid_properties(assembly, part);
-    centroid[part.ring] += solid.volume * solid.centroid;
-    volume[part.ring] += solid.volume;
-  }
-  for (size_t k = 0; k < centroid.size(); ++k) centroid[k] /= volume[k];
-  std::vector<Vec3> progress(centroid.size(), Vec3::UnitZ());
-  for (size_t k = 0; k < centroid.size(); ++k) {
-    const Sheet* sheet = assembly.sheet_of(static_cast<int>(k));
-    if (!sheet || sheet->thrust_lines != Sheet::ThrustLines::one) continue;
-    const auto [first, end] = assembly.stack_of(static_cast<int>(k));
-    const size_t last = std::min(static_cast<size_t>(end), centroid.size()) - 1;
-    const Vec3 d = centroid[std::min(k + 1, last)] - centroid[k > static_cast<size_t>(first) ? k - 1 : k];
-    if (d.norm() > 0.0) progress[k] = d.normalized();
-  }
-  return progress;
 }
 
 /// The value in the middle, of an even number the upper one: a width that a block has, as no mean is.
@@ -170,18 +148,19 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
   shell.up = up;
   const int num_rings = rings_present(assembly);
   if (num_rings == 0) return shell;
-  shell.progress = progress_directions(assembly, num_rings);
+  const BedSides sides(assembly, num_rings);
+  shell.progress = sides.progress();
   for (int ring = 0; ring < num_rings; ring = shell.ends.back())
     shell.ends.push_back(std::min(assembly.stack_of(ring).second, num_rings));
   shell.beds.resize(static_cast<size_t>(num_rings) + shell.ends.size());
   set_wythes(assembly, &shell);
   const bool has_layers = !assembly.vertex_layers.empty();
   LayerFacets facets(assembly);
+  std::vector<std::vector<BedFace>> faces(shell.beds.size());
   const auto add = [&](const Part& part, int f, int bed) {
-    if (has_layers)
-      facets.add(part, f, bed);
-    else
-      add_skin_facet(assembly, part, f, &shell.beds[bed]);
+    if (has_layers) return facets.add(part, f, bed);
+    faces[bed].push_back({&part, f});
+    add_skin_facet(assembly, part, f, &shell.beds[bed]);
   };
   for (const Part& part : assembly.parts) {
     if (part.ring < 0) continue;
@@ -192,21 +171,21 @@ Shell shell_of(const Assembly& assembly, const Vec3& up) {
       const bool joint = kind == FaceKind::bed || kind == FaceKind::top;
       const bool inside = kind == FaceKind::internal && block.num_rings > 1 && part.ring > block.ring;
       if (!joint && !inside) continue;
-      const double along = polygon_plane(face_points(assembly, f)).normal.dot(shell.progress[part.ring]);
-      constexpr double kSideways = 0.1;  // internal faces between slices are perpendicular to this direction
-      if (along < -kSideways) add(part, f, part.ring);
-      if (along > kSideways && joint && shell.closes(above)) add(part, f, above);
-      if (has_layers && joint && std::abs(along) > kSideways)
+      const int side = sides.side_of(part, f);
+      if (side < 0) add(part, f, part.ring);
+      if (side > 0 && joint && shell.closes(above)) add(part, f, above);
+      if (has_layers && joint && side != 0)
         for (const int v : assembly.face(f)) {
           if (assembly.vertex_layers[v] < 0) continue;  // of a cut
-          double& share = shell.layers[along > 0.0 ? above : part.ring][assembly.vertex_layers[v]];
-          if (along < 0.0 || std::isnan(share))
+          double& share = shell.layers[side > 0 ? above : part.ring][assembly.vertex_layers[v]];
+          if (side < 0 || std::isnan(share))
             share = assembly.vertex_depths[v];  // a drum may be as wide below
         }
     }
   }
   facets.add_to(&shell);
   for (int bed = 0; bed < static_cast<int>(shell.beds.size()); ++bed) {
+    add_cut_facets(assembly, faces[bed], &shell.beds[bed]);
     const int ring = shell.closes(bed) ? shell.number_of(bed) - 1 : bed;
     shell.blocks.push_back(blocks_on(shell.beds[bed], assembly.axis_of(assembly.stack_of(ring).first)));
   }

@@ -6,6 +6,8 @@
 #include <span>
 #include <utility>
 
+#include "postproc/mechanics/cut_facet.hpp"
+
 namespace cupola {
 namespace {
 
@@ -54,12 +56,6 @@ std::vector<std::pair<double, double>> covered_by(const Assembly& assembly, cons
   }
   return covered;
 }
-
-/// A face of a bed and its part.
-struct BedFace {
-  const Part* part = nullptr;
-  int face = 0;
-};
 
 /// The faces of the bed of a stone that its parts form together with face `f`, by their numbers.
 std::vector<BedFace> bed_of_stone(const Assembly& assembly, const Part& part, int f) {

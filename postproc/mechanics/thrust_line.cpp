@@ -9,6 +9,7 @@
 
 #include "assembly/base/error.hpp"
 #include "postproc/mechanics/bed_blocks.hpp"
+#include "postproc/mechanics/block_pieces.hpp"
 #include "postproc/mechanics/strip.hpp"
 
 namespace cupola {
@@ -25,17 +26,11 @@ constexpr double kOnFace = 1e-4;
 
 /// Adds what balances the loads on the piece of a block above a bed inside the block.
 void balance_loads(const ThrustInput& in, int block, int bed, Wrench* w) {
-  const std::vector<BlockBed>& beds = in.shell->blocks[bed];
-  const auto own = std::ranges::lower_bound(beds, block, {}, &BlockBed::block);
-  CUPOLA_ASSERT(own != beds.end() && own->block == block);
-  const Plane& plane = own->plane;
-  const double upwards = std::copysign(1.0, plane.normal.dot(in.shell->direction(bed)));
-  const double rounding = 1e-9 * std::cbrt(in.assembly->blocks[block].volume);  // m, of a load at the bed
   for (auto on = std::ranges::lower_bound(in.loads, block, {}, &PointForce::block);
        on != in.loads.end() && on->block == block; ++on) {
     const PointForce& load = *on;
     const Vec3& at = load.of_moment ? in.assembly->blocks[block].centroid : load.point;
-    if (upwards * (plane.normal.dot(at) - plane.offset) >= -rounding)
+    if (ring_of_piece(*in.assembly, block, at) >= bed)
       w->add_force(in.poses.placed(block, load.point), -load.force);
   }
 }
@@ -58,10 +53,9 @@ Wrench wrench_through(const ThrustInput& in, int block, int bed) {
     const double sign = joint.block_b == block ? -1.0 : 1.0;
     for (int i = joint.contact_start; i < joint.contact_start + joint.num_contacts; ++i) {
       const int row = in.joints->contacts[i];
-      // The ring of a contact is that of the block above, on either side of a support that of the block.
-      const bool is_under = joint.lower == block && joint.kind != JointKind::base;
-      const int ring = is_under ? c.ring[row] - 1 : c.ring[row];
-      if (ring >= bed) w.add_force(c.point[row], sign * c.force[row]);
+      const Vec3 at = in.poses.as_built(block, c.point[row]);
+      if (ring_of_piece(*in.assembly, block, at, c.ring[row]) >= bed)
+        w.add_force(c.point[row], sign * c.force[row]);
     }
   }
   balance_loads(in, block, bed, &w);
@@ -276,6 +270,14 @@ std::optional<Vec3> meeting(const ThrustPoint& p, const ThrustPoint& q, const Ve
   return meet;
 }
 
+/// True if blocks on a bed are in the strip; also if none of the blocks that stand on it has a facet.
+bool is_in_strip(const ThrustInput& in, int bed, const Route& route) {
+  if (!in.shell->beds[bed].empty()) return !strands_on(in, bed, route).empty();
+  return !route.wythe && std::ranges::any_of(in.assembly->blocks, [&](const Block& block) {
+    return !block.fixed && block.ring == bed;
+  });
+}
+
 }  // namespace
 
 double ThrustLine::largest_couple_length() const {
@@ -325,7 +327,10 @@ ThrustLine thrust_line(const ThrustInput& input, const std::string& name, std::o
     ThrustPoint point;
     point.bed = number;
     const std::optional<Layers> layers = layers_of(*input.shell, bed, wythes);
-    if (!layers || !find_skins(input, bed, *layers, route, &point)) continue;
+    if (!layers || !find_skins(input, bed, *layers, route, &point)) {
+      line.without_skins += is_in_strip(input, bed, route) ? 1 : 0;
+      continue;
+    }
     if (!sum_strip(input, bed, *layers, route, &point)) continue;
     find_compressed_zone(input, bed, *layers, route, &point);
     line.points.push_back(point);

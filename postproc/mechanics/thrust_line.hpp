@@ -70,6 +70,7 @@ struct ThrustLine {
   std::vector<ThrustPoint> points;  ///< from the springing upwards
   std::vector<Vec3> envelope;       ///< m, intersections of successive lines of action
   int undefined = 0;                ///< number of points of undefined position
+  int without_skins = 0;            ///< further beds, whose blocks have no inner or outer edge in the strip
   bool inside = false;  ///< every point of defined position lies between the skins or on one of them
   double least_face_distance = 0.0;  ///< m
   double least_geometric_safety = 0.0;

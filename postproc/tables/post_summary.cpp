@@ -195,7 +195,7 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     s->rib_over_mid_sail_largest = e.rib_over_mid_sail->largest;
   }
   for (const MeridianEvaluation& m : e.meridians)
-    s->thrust_lines.push_back({m.thrust.name, m.thrust.undefined, m.thrust.inside,
+    s->thrust_lines.push_back({m.thrust.name, m.thrust.undefined + m.thrust.without_skins, m.thrust.inside,
                                m.thrust.least_face_distance, m.thrust.least_geometric_safety});
 }
 

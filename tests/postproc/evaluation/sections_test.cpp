@@ -104,5 +104,28 @@ TEST(Sections, LeaveOutStacksAtOtherHeights) {
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(e.sections[i].beds, std::vector{expected[i]});
 }
 
+// Blocks that a cut has left without intrados and extrados carry what the others do.
+TEST(Sections, HaveTheForcesOfBlocksWithoutSkins) {
+  Assembly a = test::column(3);
+  for (FaceKind& kind : a.face_kinds)
+    if (kind == FaceKind::intrados || kind == FaceKind::extrados) kind = FaceKind::free;
+  const Evaluation e =
+      test::evaluated(a, {test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4)}, test::column_summary(a),
+                      test::column_case(), test::fresh_folder("results"));
+  ASSERT_EQ(e.sections.at(0).resultants.size(), 1u);
+  EXPECT_NEAR(e.sections[0].resultants[0].wrench.force.z(), kBlockWeight, 1e-9 * kBlockWeight);  // rounding
+}
+
+// 5 cm below the top of the support.
+TEST(Sections, LeaveOutHeightsThatCutSupportsOnly) {
+  Case scene = test::column_case();
+  scene.postproc.sections = {-0.05, 0.8, 0.8};
+  const Assembly a = test::column(3);
+  const Evaluation e = test::evaluated(a, {test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4)},
+                                       test::column_summary(a), scene, test::fresh_folder("results"));
+  ASSERT_EQ(e.sections.size(), 1u);
+  EXPECT_EQ(e.sections[0].height, 0.8);
+}
+
 }  // namespace
 }  // namespace cupola::sections_test

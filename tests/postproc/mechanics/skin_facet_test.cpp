@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/mechanics/cut_facet.hpp"
+
 namespace cupola::skin_facet_test {
 namespace {
 
@@ -65,6 +67,26 @@ TEST(SkinFacet, FollowsTheBendOfAStoneHoweverThatIsCut) {
     }
     EXPECT_NEAR(inner, kLong + kShort, 1e-12);
   }
+}
+
+// As of a stone at a groin, whose outer edge the mitre has cut away.
+TEST(SkinFacet, OfATriangleIsTheRectangleAroundIt) {
+  Assembly a;
+  a.num_rings = 1;
+  a.blocks.emplace_back();
+  add_prism(&a, {{0, 0, 0}, {kLong, 0, 0}, {0.2, kThickness, 0}},
+            {FaceKind::intrados, FaceKind::head, FaceKind::head});
+  std::vector<BedFacet> bed;
+  add_skin_facet(a, a.parts[0], 0, &bed);
+  EXPECT_TRUE(bed.empty());
+  add_cut_facets(a, std::vector{BedFace{&a.parts[0], 0}}, &bed);
+  ASSERT_EQ(bed.size(), 1u);
+  EXPECT_NEAR((bed[0].intrados_b - bed[0].intrados_a).norm(), kLong, 1e-12);  // rounding
+  for (const Vec3& corner : {bed[0].intrados_a, bed[0].intrados_b}) EXPECT_NEAR(corner.y(), 0.0, 1e-12);
+  for (const Vec3& corner : {bed[0].extrados_a, bed[0].extrados_b})
+    EXPECT_NEAR(corner.y(), kThickness, 1e-12);
+  add_cut_facets(a, std::vector{BedFace{&a.parts[0], 0}}, &bed);
+  EXPECT_EQ(bed.size(), 1u) << "the block has a facet";
 }
 
 }  // namespace

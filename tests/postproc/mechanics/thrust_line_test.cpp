@@ -63,6 +63,15 @@ TEST(ThrustLine, PositionAndResultantAreFoundAtEveryAzimuth) {
   }
 }
 
+TEST(ThrustLine, CountsBedsOfBlocksWithoutSkins) {
+  MeridianScene scene(6, 16, 0.0, 0.3, -300.0, 1000.0);
+  scene.shell.beds[3].clear();
+  scene.shell.blocks[3].clear();
+  const ThrustLine line = thrust_line(scene.input(), "m", 5.0);
+  EXPECT_EQ(line.points.size(), 5u);
+  EXPECT_EQ(line.without_skins, 1);
+}
+
 /// Eight stones on a support, bent round the corners of an octagon at multiples of 45 degrees, 2 m from the
 /// axis to the middle of its sides. Each is two parts; the first goes on along the plane of its intrados.
 Assembly octagon_of_bent_stones() {
