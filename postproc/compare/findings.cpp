@@ -16,7 +16,7 @@
 namespace cupola {
 namespace {
 
-constexpr const char* kCritical = "critical_value";
+constexpr const char *kCritical = "critical_value", *kMargin = "margin_factor";
 
 using Values = std::vector<std::optional<double>>;
 
@@ -70,6 +70,13 @@ std::string unit_text(const Measure& measure, const PostSummary& run) {
   return unit.empty() ? "" : " " + unit;
 }
 
+/// What a measure of a run is of: a critical value, a margin, or a state, which of a limit is not the case's.
+std::string subject_of(const Measure& measure, const PostSummary& run) {
+  if (measure.key == kMargin) return "";
+  if (measure.key == kCritical) return run.critical_parameter;
+  return run.critical_parameter.empty() ? "the case" : "the critical " + run.critical_parameter;
+}
+
 std::string sentence(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
                      const std::vector<std::string>& labels) {
   if (std::all_of(values.begin(), values.end(), [](const auto& v) { return v == 0.0; }))
@@ -84,14 +91,15 @@ std::string sentence(const Measure& measure, const Values& values, const std::ve
       numbers +=
           fmt::format("{:.4g}{} in {}", measure.scale * *values[i], unit_text(measure, runs[i]), labels[i]);
   }
-  std::set<std::string> parameters;
-  if (measure.key == kCritical)
-    for (size_t i = 0; i < values.size(); ++i)
-      if (values[i]) parameters.insert(runs[i].critical_parameter);
-  return fmt::format("{} {}: {}.", measure.subject, numbers,
-                     parameters.size() > 1
-                         ? fmt::format("of {}, which do not compare", fmt::join(parameters, ", "))
-                         : conclusion(measure, values, labels));
+  std::set<std::string> subjects;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (values[i]) subjects.insert(subject_of(measure, runs[i]));
+  if (subjects.size() > 1)
+    return fmt::format("{} {}: of {}, which do not compare.", measure.subject, numbers,
+                       fmt::join(subjects, ", "));
+  const std::string& subject = *subjects.begin();
+  return fmt::format("{} {}: {}{}.", measure.subject, numbers, conclusion(measure, values, labels),
+                     subject.starts_with("the critical ") ? ", at " + subject : "");
 }
 
 /// Says where the runs differ in contact points while compliance is given per point; "" elsewhere.
@@ -149,7 +157,7 @@ const std::vector<Measure>& measures() {
        [](const S& s) {
          return s.thrust_over_weight ? std::optional(*s.thrust_over_weight * s.weight_N) : std::nullopt;
        }},
-      {"margin_factor", "", 1.0, "The margin, as a factor of the case from its limit, is",
+      {kMargin, "", 1.0, "The margin, as a factor of the case from its limit, is",
        "How far the case is from the limit that was computed: 2 if half the friction or twice the load is "
        "still borne.",
        "largest", Best::highest, [](const S& s) { return s.margin_factor; }},

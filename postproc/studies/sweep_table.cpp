@@ -50,11 +50,14 @@ std::vector<std::string> limit_parameters(const std::vector<StudyRun>& members,
   return parameters;
 }
 
-/// Gives the critical values their unit or, of several parameters, a column that says which.
+/// Gives the critical values their unit or, of several parameters, a column that says which. The states of
+/// these members are those at them.
 void add_limit_parameters(const std::vector<std::string>& parameters, Table* t) {
   std::set<std::string> found(parameters.begin(), parameters.end());
   found.erase("");
   const auto critical = static_cast<std::ptrdiff_t>(t->column_named("critical_value"));
+  for (const char* of_state : {"thrust_N", "widest_crack_m", "max_displacement_m"})
+    if (!found.empty()) t->columns[t->column_named(of_state)].meaning += ": at the critical value, if any";
   if (found.size() == 1) t->columns[critical].unit = limit_unit(*found.begin());
   if (found.size() < 2) return;
   t->columns.insert(t->columns.begin() + critical, {"critical_parameter", "", "critical value of"});

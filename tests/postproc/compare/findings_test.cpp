@@ -55,6 +55,24 @@ TEST(Findings, EverySentenceGivesTheNumbersAndTheBestRun) {
   EXPECT_NE(sentences[0].find("by a factor of 4"), std::string::npos) << "0.124 / 0.031";
 }
 
+// The state of a limit is not that of its case.
+TEST(Findings, StatesOfLimitsCompareOnlyWithTheirLike) {
+  auto runs = two_runs();
+  const auto of_thrust = [&runs] {
+    for (const std::string& sentence : findings(runs))
+      if (sentence.starts_with("The outward base thrust is")) return sentence;
+    return std::string();
+  };
+  runs[0].critical_parameter = runs[1].critical_parameter = "friction";
+  EXPECT_TRUE(of_thrust().ends_with("lowest in A, by a factor of 1.38, at the critical friction."));
+  runs[1].critical_parameter = "acceleration";
+  EXPECT_TRUE(of_thrust().ends_with(
+      "304 kN in B: of the critical acceleration, the critical friction, which do not compare."))
+      << of_thrust();
+  runs[1].critical_parameter = "";
+  EXPECT_TRUE(of_thrust().ends_with("of the case, the critical friction, which do not compare."));
+}
+
 TEST(Findings, SaysThatStiffnessDiffersWithTheNumberOfPoints) {
   auto runs = two_runs();
   runs[0].compliance_per = runs[1].compliance_per = "point";

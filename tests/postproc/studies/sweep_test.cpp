@@ -101,14 +101,17 @@ TEST(SweepTable, HasTheResultsOfTheMembers) {
   const std::string html = read_text(scratch.file("page/study.html"));
   EXPECT_NE(html.find("<p class=\"verdict bad\"><strong>1 of 2 runs failed</strong>"), std::string::npos);
   EXPECT_NE(html.find("dome_friction0.1/post/report.html\""), std::string::npos);
-  EXPECT_NE(html.find("<th>outward thrust<small>kN</small></th>"), std::string::npos) << html;
-  EXPECT_NE(html.find("<th>widest crack<small>mm</small></th>"), std::string::npos);
+  EXPECT_NE(html.find("<th>outward thrust: at the critical value, if any<small>kN</small></th>"),
+            std::string::npos)
+      << html;
+  EXPECT_NE(html.find("<th>widest crack: at the critical value, if any<small>mm</small></th>"),
+            std::string::npos);
   EXPECT_NE(html.find("<td class=\"text\">It stands</td>"), std::string::npos)
       << "not the name of the status";
   EXPECT_NE(read_text(scratch.file("page/sweep.csv")).find(",stable,It stands,,0.3,"), std::string::npos);
   EXPECT_EQ(html.find("dome_friction0.2/post/report.html\""), std::string::npos);
   const std::string latex = read_text(scratch.file("page/sweep.tex"));
-  EXPECT_NE(latex.find("outward thrust (N)"), std::string::npos) << latex;
+  EXPECT_NE(latex.find("outward thrust: at the critical value, if any (N)"), std::string::npos) << latex;
   EXPECT_NE(latex.find("dome\\_friction0.1 & 0.1 & stable"), std::string::npos) << latex;
 }
 
