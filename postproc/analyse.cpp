@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -204,13 +206,26 @@ std::optional<CsvFile> readable_table(const ResultsReader& results, const std::s
   return text.empty() ? std::nullopt : std::optional(parse_csv(text, name));
 }
 
+/// What the joints of the stages that stand bear at most, of those with a readable frame.
+std::map<int, StagePeaks> read_peaks(const ResultsReader& results, Evaluation* e) {
+  std::map<int, StagePeaks> peaks;
+  for (size_t i = 0; i < e->times.size(); ++i) {
+    FrameEvaluation other;
+    const FrameEvaluation* frame = frame_at(i, results, e, &other);
+    const std::string number = frame && frame->frame.role == FrameRole::stage ? frame->frame.owner : "";
+    if (const std::string stage = "stage "; number.starts_with(stage))
+      peaks[std::stoi(number.substr(stage.size()))] = peaks_of(*frame);
+  }
+  return peaks;
+}
+
 /// The stages of a staged run.
 std::optional<StageReport> read_construction(const ResultsReader& results, Evaluation* e) {
   if (const auto old = readable_table(results, "stages.csv", e))
     return report_stages(*e, StagedConstruction::Least::friction, from_stages_csv(*old), std::nullopt);
   if (const auto stages = readable_table(results, "construction.csv", e))
     return report_stages(*e, e->scene.analysis.staged.least, *stages,
-                         readable_table(results, "failures.csv", e));
+                         readable_table(results, "failures.csv", e), read_peaks(results, e));
   return std::nullopt;
 }
 

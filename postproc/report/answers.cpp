@@ -247,21 +247,35 @@ KeyNumber margin_answer(const Evaluation& e) {
   return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
 }
 
+std::string after_last_stage(const Evaluation& e) {
+  return is_stage(e.last.frame.role) ? "after the last stage: " : "";
+}
+
+KeyNumber pressure_number(double pressure, double strength_use) {
+  return {kLargestPressure,
+          pressure < 1e5 ? fmt::format("{:.3g} kPa", 1e-3 * pressure)
+                         : fmt::format("{:.3g} MPa", 1e-6 * pressure),
+          strength_use > 0.0
+              ? fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
+                            100.0 * strength_use)
+              : std::string("no joint is in tension; crushing was not checked")};
+}
+
 std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   if (!at_rest(e) || is_rigid(e)) return std::nullopt;
   if (supports_have_not_moved(e))
-    return KeyNumber{"Widest crack", "not computed", "the supports move in time, and here they have not"};
+    return KeyNumber{kWidestCrack, "not computed", "the supports move in time, and here they have not"};
   const std::vector<Crack>& cracks = e.joint_cracks;
   if (cracks.empty())
-    return KeyNumber{
-        "Widest crack", "none",
-        fmt::format("no joint is open by more than {}", length_text(e.last.joints.floor.length))};
+    return KeyNumber{kWidestCrack, "none",
+                     fmt::format("{}no joint is open by more than {}", after_last_stage(e),
+                                 length_text(e.last.joints.floor.length))};
   const Crack& widest = *std::max_element(cracks.begin(), cracks.end(), [](const Crack& a, const Crack& b) {
     return a.widest_gap < b.widest_gap;
   });
   const JointWrench& joint = e.last.joints.wrenches[widest.joint];
-  return KeyNumber{"Widest crack", length_text(widest.widest_gap),
-                   fmt::format("in the {}joint between blocks {} and {}; {} open{}",
+  return KeyNumber{kWidestCrack, length_text(widest.widest_gap),
+                   fmt::format("{}in the {}joint between blocks {} and {}; {} open{}", after_last_stage(e),
                                joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
                                joint.block_a, joint.block_b,
                                counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),

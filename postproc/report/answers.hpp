@@ -40,6 +40,15 @@ std::string distance_from_limit(double factor, const CriticalValue& critical);
 /// without an axis.
 std::optional<KeyNumber> thrust_answer(const Evaluation& evaluation);
 
+/// "after the last stage: " of a construction, else "".
+std::string after_last_stage(const Evaluation& evaluation);
+
+inline constexpr const char* kLargestPressure = "Largest pressure on a joint";
+inline constexpr const char* kWidestCrack = "Widest crack";
+
+/// The largest pressure on a joint, Pa, with the largest share of its strength that one uses.
+KeyNumber pressure_number(double pressure, double strength_use);
+
 /// The widest crack; none where joints are rigid, or without an equilibrium.
 std::optional<KeyNumber> crack_answer(const Evaluation& evaluation);
 

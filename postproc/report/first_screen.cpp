@@ -51,14 +51,8 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
     out->insert(first ? out->begin() : out->end(), std::move(*thrust));
   }
   if (const PostSummary s = post_summary(e); s.largest_strength_use) {
-    const double pressure = s.largest_pressure_Pa.value_or(0.0);
-    out->push_back({kLargestPressure,
-                    pressure < 1e5 ? fmt::format("{:.3g} kPa", 1e-3 * pressure)
-                                   : fmt::format("{:.3g} MPa", 1e-6 * pressure),
-                    *s.largest_strength_use > 0.0
-                        ? fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
-                                      100.0 * *s.largest_strength_use)
-                        : std::string("no joint is in tension; crushing was not checked")});
+    out->push_back(pressure_number(s.largest_pressure_Pa.value_or(0.0), *s.largest_strength_use));
+    out->back().detail.insert(0, after_last_stage(e));
   }
   if (std::optional<KeyNumber> crack = crack_answer(e)) out->push_back(std::move(*crack));
 }
@@ -125,6 +119,10 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
   std::string out = verdict_html(verdict.words, reason_for_verdict(e), verdict.good);
   out += warnings_html(notices(e));
   std::vector<KeyNumber> numbers = key_numbers(e, history);
+  if (construction)
+    for (KeyNumber& number : numbers)
+      for (const KeyNumber& largest : construction->largest)
+        if (number.name == largest.name) number = largest;
   if (construction)
     numbers.insert(numbers.begin(),
                    {"Stages that stand",

@@ -13,8 +13,6 @@ namespace cupola {
 /// From here on a joint is at its friction limit: its friction use prints as 100 %.
 inline constexpr double kSlides = 0.999;
 
-inline constexpr const char* kLargestPressure = "Largest pressure on a joint";
-
 /// At most four: by how much it stands, its thrust, pressure and widest crack, of a range analysis the ranges
 /// first; of a run that is not at rest what moves, how far and when.
 std::vector<KeyNumber> key_numbers(const Evaluation& evaluation, const std::vector<HistoryRow>& history);

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "postproc/figures/plot_style.hpp"
+#include "postproc/mechanics/cracks.hpp"
+#include "postproc/report/answers.hpp"
 
 namespace cupola {
 namespace {
@@ -82,7 +85,41 @@ std::string what_moves(const std::optional<CsvFile>& failures, double stage) {
   return text;
 }
 
+/// The most of all stages, each with its stage.
+std::vector<KeyNumber> largest_of(const std::map<int, StagePeaks>& peaks) {
+  std::vector<KeyNumber> out;
+  if (peaks.empty()) return out;
+  const auto most = [&](double StagePeaks::*value) {
+    return *std::ranges::max_element(
+        peaks, [&](const auto& a, const auto& b) { return a.second.*value < b.second.*value; });
+  };
+  if (!std::isnan(peaks.begin()->second.strength_use)) {
+    const auto& [pressed, peak] = most(&StagePeaks::pressure);
+    const auto& [strained, used] = most(&StagePeaks::strength_use);
+    out.push_back(pressure_number(peak.pressure, used.strength_use));
+    out.back().detail =
+        fmt::format("in stage {}; {}{}", pressed,
+                    strained == pressed ? "" : fmt::format("in stage {}, ", strained), out.back().detail);
+  }
+  const auto& [stage, peak] = most(&StagePeaks::widest_gap);
+  out.push_back(peak.widest_gap > 0.0
+                    ? KeyNumber{kWidestCrack, length_text(peak.widest_gap), fmt::format("in stage {}", stage)}
+                    : KeyNumber{kWidestCrack, "none", "in none of the stages"});
+  return out;
+}
+
 }  // namespace
+
+StagePeaks peaks_of(const FrameEvaluation& stage) {
+  StagePeaks peaks;
+  for (const JointWrench& joint : stage.joints.wrenches) {
+    peaks.pressure = std::max(peaks.pressure, joint.largest_pressure);
+    peaks.strength_use = std::fmax(peaks.strength_use, joint.strength_use);  // skips NaN
+  }
+  for (const Crack& crack : cracks_of(stage.frame.contacts, stage.joints))
+    peaks.widest_gap = std::max(peaks.widest_gap, crack.widest_gap);
+  return peaks;
+}
 
 std::vector<Table::Column> construction_columns(Least least) {
   const std::string property = to_string(least), unit = least == Least::cohesion ? "Pa" : "";
@@ -102,6 +139,10 @@ std::vector<Table::Column> construction_columns(Least least) {
   columns.push_back(
       {"head_squeeze_m", "m", "closing of the most compressed fresh head joint since it was laid"});
   columns.push_back({"displacement_m", "m", "largest distance of a block from its place in the assembly"});
+  columns.push_back(
+      {"largest_pressure_Pa", "Pa", "largest pressure on a joint; empty: the stage has no frame"});
+  columns.push_back({"strength_use", "", "largest share of its strength that a joint uses"});
+  columns.push_back({"widest_crack_m", "m", "widest gap of a crack"});
   return columns;
 }
 
@@ -122,7 +163,7 @@ CsvFile from_stages_csv(CsvFile old) {
 }
 
 StageReport report_stages(const Evaluation& e, Least least, const CsvFile& csv,
-                          const std::optional<CsvFile>& failures) {
+                          const std::optional<CsvFile>& failures, const std::map<int, StagePeaks>& peaks) {
   const size_t number = csv.column("stage"), ring = csv.column("ring"), laid = csv.column("laid");
   const size_t blocks = csv.column("blocks"), verdict = csv.column("verdict");
   const size_t stands = csv.column("least_stands"), moves = csv.column("least_moves");
@@ -146,8 +187,13 @@ StageReport report_stages(const Evaluation& e, Least least, const CsvFile& csv,
       for (const size_t column : {stands, moves}) cells.emplace_back(csv.number(row, column));
     cells.emplace_back(what_moves(failures, csv.number(row, number)));
     for (const size_t column : {squeeze, displacement}) cells.emplace_back(csv.number(row, column));
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    const auto found = peaks.find(static_cast<int>(csv.number(row, number)));
+    const StagePeaks peak = found == peaks.end() ? StagePeaks{kNone, kNone, kNone} : found->second;
+    for (const double value : {peak.pressure, peak.strength_use, peak.widest_gap}) cells.emplace_back(value);
     points.push_back({csv.number(row, number), (cohesion ? 1e-3 : 1.0) * csv.number(row, stands)});
   }
+  out.largest = largest_of(peaks);
   const Notable notable = notable_stages(csv, verdict, stands);
   out.standing = notable.standing;
   if (const auto& row = notable.failing ? notable.failing : notable.demanding) {

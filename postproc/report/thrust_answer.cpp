@@ -248,8 +248,8 @@ std::string doubt_of(const Evaluation& e) {
 }
 
 KeyNumber thrust_without_courses(const Evaluation& e, double thrust) {
-  std::string detail =
-      thrust < 0.0 ? "negative: inwards; the sum over the supports" : "the sum over the supports";
+  std::string detail = after_last_stage(e) + (thrust < 0.0 ? "negative: inwards; the sum over the supports"
+                                                           : "the sum over the supports");
   for (const std::string& text : {spread_over(e.reactions), share_of_weight(e, thrust), doubt_of(e)})
     if (!text.empty()) detail += "; " + text;
   return {"Outward thrust", force_text(thrust), detail};
@@ -283,7 +283,8 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (alone) add(share_of_weight(e, thrusts.front().force));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(doubt_of(e));
-  return KeyNumber{"Outward thrust", values_text(thrusts), fmt::format("{}", fmt::join(details, "; "))};
+  return KeyNumber{"Outward thrust", values_text(thrusts),
+                   after_last_stage(e) + fmt::format("{}", fmt::join(details, "; "))};
 }
 
 }  // namespace cupola

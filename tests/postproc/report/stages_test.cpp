@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/report/first_screen.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::stages_test {
@@ -98,6 +99,30 @@ TEST(Stages, TheFirstStageThatDoesNotStandSaysWhatMoves) {
   EXPECT_FALSE(c.figure);
   for (const Table::Column& column : c.table.columns)
     EXPECT_FALSE(column.key.starts_with("least")) << column.key;
+}
+
+// An arch cracks while it is built, and closes again.
+TEST(Stages, FirstScreenHasTheMostOfAllStages) {
+  const Evaluation e = test::column_evaluation(0.6, 0.4);
+  const CsvFile stages =
+      parse_csv(std::string(kConstruction) +
+                    "0,0,1,1,equilibrium,1e-9,,,0,1e-4,\n1,1,1,2,equilibrium,1e-9,,,0,1e-4,\n"
+                    "2,2,1,3,equilibrium,1e-9,,,0,1e-4,\n",
+                "construction.csv");
+  const StageReport c = report_stages(e, StagedConstruction::Least::none, stages, std::nullopt,
+                                      {{1, {1.087e6, 1.0, 1.09e-3}}, {2, {1.96e5, 0.307, 0.0}}});
+  ASSERT_EQ(c.largest.size(), 2u);
+  EXPECT_EQ(c.largest[0].value, "1.09 MPa");
+  EXPECT_EQ(c.largest[0].detail,
+            "in stage 1; a joint uses at most 100 % of its compressive or tensile strength");
+  EXPECT_EQ(c.largest[1].value, "1.09 mm");
+  const size_t pressure = c.table.columns.size() - 3;
+  EXPECT_TRUE(std::isnan(std::get<double>(c.table.rows[0][pressure]))) << "has no frame";
+  EXPECT_EQ(std::get<double>(c.table.rows[1][pressure]), 1.087e6);
+  const std::string page = first_screen(e, {}, &c, "");
+  EXPECT_NE(page.find("<span>Widest crack</span><strong>1.09 mm</strong><small>in stage 1<"),
+            std::string::npos)
+      << page;
 }
 
 }  // namespace
