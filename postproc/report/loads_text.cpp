@@ -68,8 +68,7 @@ std::string horizontal_loads(const Evaluation& e, const FrameEvaluation& shown) 
 }  // namespace
 
 std::string weight_text(const Evaluation& e) {
-  const double of_case = e.acting.gravity.norm(), full = e.summary.weight_N;
-  const double acting = of_case > 0.0 ? full * (e.last.gravity - e.acting.pull).norm() / of_case : full;
+  const double acting = -pull_of_weight(e, e.last).dot(e.up), full = e.summary.weight_N;
   return force_text(acting) + (alike(acting, full) ? "" : " of " + force_text(full));
 }
 

@@ -6,7 +6,7 @@
 
 namespace cupola {
 
-/// "110 kN", or "64 kN of 110 kN" where `loads.dead_load_time` lets a part act.
+/// What acts downwards: "110 kN", or "64 kN of 110 kN" where `loads.dead_load_time` or a tilt lets a part act.
 std::string weight_text(const Evaluation& evaluation);
 
 /// "fill of 1.25 MN and forces of 328 kN, 4.22 MN in all; horizontal loads of 42 kN, 0.014 of the weight":

@@ -201,6 +201,7 @@ TEST(Reasons, WeightPullsToTheSideInLimitsOfTiltAndAcceleration) {
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, 44 kN in all; horizontal loads of 20 kN, 0.5 of the weight");
   e.acting.pull.setZero();
   e.last.gravity = g * Vec3(0, 0.6, -0.8);
+  EXPECT_EQ(weight_text(e), "32 kN of 40 kN");
   EXPECT_EQ(loads_text(e), "load on top of 4 kN, 36 kN in all; horizontal loads of 24 kN, 0.6 of the weight");
 }
 
