@@ -284,7 +284,7 @@ std::string certain_sentence(const Evaluation& e) {
                                             : "";
   const std::optional<KeyNumber> crack = crack_answer(e);
   const std::string stiffness =
-      thrust_answer(e) || (crack && crack->value != "none")
+      !is_rigid(e) && (thrust_answer(e) || (crack && crack->value != "none"))
           ? fmt::format(", and the stiffness of the joints{}, on which thrust and cracks depend",
                         e.last.frame.ties.size() > 0 ? " and ties" : "")
           : "";

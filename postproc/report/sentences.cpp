@@ -112,8 +112,9 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
   if (s.rib_over_mid_sail)
     out.push_back(fmt::format(
         "The resultant in the rib is on average {:.3f} times that at mid-sail, and between {:.2f} "
-        "and {:.2f} times on a single bed (compliance per {}).",
-        *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest, s.compliance_per));
+        "and {:.2f} times on a single bed ({}).",
+        *s.rib_over_mid_sail, *s.rib_over_mid_sail_smallest, *s.rib_over_mid_sail_largest,
+        is_rigid(e) ? "rigid joints" : "compliance per " + s.compliance_per));
   if (!e.rings.empty() && s.largest_couple_length_m) out.push_back(couple_text(e, s));
   out.push_back(friction_text(e, s));
   if (s.mean_kern_use)

@@ -220,7 +220,7 @@ PostSummary post_summary(const Evaluation& e) {
     s.margin_factor = factor_of_safety(e.scene, e.summary);
   }
   s.max_displacement_m = e.summary.max_displacement_m;
-  s.compliance_per = to_string(e.scene.joints.compliance.per);
+  s.compliance_per = is_rigid(e) ? "none" : to_string(e.scene.joints.compliance.per);
   s.points_per_base_joint = points_per_base_joint(e.last.joints);
   if (e.scene.analysis.plane && s.points_per_base_joint) *s.points_per_base_joint /= 2.0;  // spread over two
   s.ranges = e.summary.ranges;

@@ -25,7 +25,8 @@ struct PostSummary {
   std::optional<double> largest_cv_pressure;
   std::optional<double> rib_over_mid_sail;  ///< RibRatio: mean, smallest and largest
   std::optional<double> rib_over_mid_sail_smallest, rib_over_mid_sail_largest;
-  std::string compliance_per;                     ///< "point" or "area": what joints.compliance refers to
+  std::string
+      compliance_per;  ///< "point" or "area": what joints.compliance refers to; "none" if joints are rigid
   std::optional<double> points_per_base_joint;    ///< mean number of contact points; none without base joints
   std::optional<double> largest_couple_length_m;  ///< of a block's wrench from the ring below
   std::optional<double> largest_friction_use;     ///< of a joint

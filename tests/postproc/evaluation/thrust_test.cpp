@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "postproc/report/answers.hpp"
+#include "postproc/tables/post_summary.hpp"
 
 namespace cupola::thrust_test {
 namespace {
@@ -53,6 +54,10 @@ TEST(Thrust, OfAStateOfAConicSolverDependsOnNoStiffness) {
   EXPECT_TRUE(
       thrust_answer(e)->detail.ends_with("of one of the admissible states: their range was not computed"))
       << thrust_answer(e)->detail;
+  EXPECT_NE(certain_sentence(e).find("stiffness"), std::string::npos) << certain_sentence(e);
+  e.summary.analysis = AnalysisType::limit;  // without a critical value
+  EXPECT_EQ(certain_sentence(e).find("stiffness"), std::string::npos) << certain_sentence(e);
+  EXPECT_EQ(post_summary(e).compliance_per, "none");
 }
 
 /// A joint at x that pushes on its lower block, of smaller number, along x.
