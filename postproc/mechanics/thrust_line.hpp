@@ -24,7 +24,7 @@ struct ThrustPoint {
   /// Through the thickness: 0 on the intrados, 1 on the extrados.
   double position = std::numeric_limits<double>::quiet_NaN();
   Vec3 point = Vec3::Zero();      ///< m, of the thrust line
-  Vec3 force = Vec3::Zero();      ///< N, on the part above, turned into the meridian plane
+  Vec3 force = Vec3::Zero();      ///< N, on the part further along, turned into the meridian plane
   double r = 0.0;                 ///< N, norm of the resultant
   double v = 0.0;                 ///< N, its vertical component
   double couple_length = 0.0;     ///< m
