@@ -14,7 +14,7 @@ std::vector<Crack> cracks_of(const ContactTable& c, const JointWrenches& joints)
       const int row = joints.contacts[i];
       // A joint that pulls elongates elastically before it cracks.
       const double opening = c.crack_opening.empty() ? c.gap[row] : c.crack_opening[row];
-      if (c.normal_force[row] > 0.0 || opening <= joints.floor.length) continue;
+      if (c.normal_force[row] > joints.floor.force || opening <= joints.floor.length) continue;
       open.push_back(c.point[row]);
       widest = std::max(widest, opening);
     }

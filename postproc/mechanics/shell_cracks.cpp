@@ -35,9 +35,9 @@ Vec3 through_shell(const std::vector<ShellAxes>& axes, const Joint& joint) {
   return sum.stableNormalized();
 }
 
-double gap_of(const ContactTable& c, int row, double floor) {
+double gap_of(const ContactTable& c, int row, const Floor& floor) {
   const double gap = c.crack_opening.empty() ? c.gap[row] : c.crack_opening[row];
-  return c.normal_force[row] > 0.0 || gap <= floor ? 0.0 : gap;
+  return c.normal_force[row] > floor.force || gap <= floor.length ? 0.0 : gap;
 }
 
 /// m along a direction, over which a joint is open: to where its gap, linear between open and closed points,
@@ -47,10 +47,10 @@ double open_length(const ContactTable& c, const JointWrench& j, const JointWrenc
   const std::span rows(joints.contacts.data() + j.contact_start, static_cast<size_t>(j.num_contacts));
   double from = std::numeric_limits<double>::infinity(), to = -from;
   for (const int open : rows) {
-    const double gap = gap_of(c, open, joints.floor.length);
+    const double gap = gap_of(c, open, joints.floor);
     if (gap == 0.0) continue;
     for (const int other : rows) {
-      const bool is_open = gap_of(c, other, joints.floor.length) > 0.0;
+      const bool is_open = gap_of(c, other, joints.floor) > 0.0;
       const double share = is_open ? 1.0 : gap / (gap - std::min(0.0, c.gap[other]));
       const double x = along.dot(c.point[open] + share * (c.point[other] - c.point[open]));
       from = std::min(from, x);
@@ -80,7 +80,7 @@ OpenJoint open_joint(const ContactTable& c, const JointWrenches& joints, int num
   open.depth = high.y() - low.y();
   for (int i = j.contact_start; i < j.contact_start + j.num_contacts; ++i) {
     const int row = joints.contacts[i];
-    const double gap = gap_of(c, row, joints.floor.length);
+    const double gap = gap_of(c, row, joints.floor);
     if (gap == 0.0) continue;
     const Eigen::Vector2d at = place(row);
     open.widest = std::max(open.widest, gap);

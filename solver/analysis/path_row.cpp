@@ -53,9 +53,11 @@ Vec3 control_force(const Model& model, const EquilibriumPath& path, const Static
 }
 
 double widest_gap(const ContactTable& contacts) {
-  double widest = 0.0;
+  double widest = 0.0, largest = 0.0;
+  for (const double force : contacts.normal_force) largest = std::max(largest, force);
   for (int i = 0; i < contacts.size(); ++i) {
-    if (contacts.normal_force[i] > 0.0) continue;
+    if (contacts.normal_force[i] > kNegligibleShare * largest)
+      continue;  // an open point may press by rounding
     widest = std::max(widest, contacts.crack_opening.empty() ? contacts.gap[i] : contacts.crack_opening[i]);
   }
   return widest;

@@ -37,6 +37,17 @@ TEST(Cracks, RunAlongTheOpenEdgeOfEveryBed) {
   EXPECT_EQ(s.widest_crack_m.value(), 2e-3);
 }
 
+// The open corners press with what rounding leaves.
+TEST(Cracks, AreOpenUpToForcesOfRounding) {
+  const Assembly a = test::column(3);
+  Frame frame = hinged(2e-3);
+  for (double& force : frame.contacts.normal_force)
+    if (force == 0.0) force = 1e-19;
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  EXPECT_EQ(cracks_of(e.last.frame.contacts, e.last.joints).size(), 3u);
+}
+
 // The joints of a limit are rigid: gaps of its mechanism are no widths.
 TEST(Cracks, HaveNoWidthInALimit) {
   const Assembly a = test::column(3);

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "solver/analysis/path_row.hpp"
 #include "tests/solver/analysis/path_run.hpp"
 
 // Joints with strength that open, close and open again along a path.
@@ -126,6 +127,14 @@ TEST(Path, PointsThatAreClosingCarryNothing) {
     }
     EXPECT_NEAR(result.rows[k][6], widest, 1e-8 * widest) << "nine digits in the table";
   }
+}
+
+TEST(PathRow, ForcesOfRoundingCloseNoGap) {
+  ContactTable contacts;
+  contacts.block_a = contacts.block_b = {0, 0, 0};
+  contacts.gap = {1e-3, 2e-3, 3e-3};
+  contacts.normal_force = {0.0, 1e-19, 1e4};
+  EXPECT_EQ(widest_gap(contacts), 2e-3);
 }
 
 }  // namespace
