@@ -1,6 +1,7 @@
 #include "solver/dynamics/contact_memory.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -34,15 +35,18 @@ class OldContacts {
     const auto found = first_from(id);
     return found != sorted_.end() && found->first == id ? &memories_.of(found->second) : nullptr;
   }
-  /// Mean damage of the points of the patch; 1 if it is new.
-  double damage_of_patch(const ContactId& id) const {
-    double sum = 0.0;
-    int count = 0;
-    for (auto point = first_from(patch_of(id)); point != sorted_.end(); ++point, ++count) {
+  /// Of the point of the patch nearest to `place` (m, as ContactMemory::point_A); null if the patch is new.
+  const ContactMemory* nearest(const ContactId& id, const Vec3& place) const {
+    const ContactMemory* found = nullptr;
+    const auto distance = [&](const ContactMemory& memory) { return (memory.point_A - place).norm(); };
+    ContactId first = patch_of(id);
+    first.corner = std::numeric_limits<int>::min();
+    for (auto point = first_from(first); point != sorted_.end(); ++point) {
       if (patch_of(point->first) != patch_of(id)) break;
-      sum += memories_.of(point->second).joint.damage;
+      const ContactMemory& memory = memories_.of(point->second);
+      if (!found || distance(memory) < distance(*found)) found = &memory;
     }
-    return count > 0 ? sum / count : 1.0;
+    return found;
   }
 
  private:
@@ -54,6 +58,15 @@ class OldContacts {
   const ContactMemories& memories_;
   std::vector<Entry> sorted_;
 };
+
+/// What a point without forces of its own remembers if it is where `old` was. An open one has no shear.
+ContactMemory at_place_of(const ContactMemory& old, double gap) {
+  ContactMemory memory = old;
+  memory.impulse = memory.force_A = memory.filtered_A = Vec3::Zero();
+  memory.loaded_steps = 0;
+  if (gap > memory.rest_gap) memory.elastic_slip_A.setZero();
+  return memory;
+}
 
 }  // namespace
 
@@ -67,7 +80,8 @@ std::vector<ContactMemory>& ContactMemories::stored() {
   return values;
 }
 
-ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts) {
+ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts,
+                               std::span<const Pose> poses) {
   CUPOLA_ASSERT(old.values.empty() || old.ids.size() == old.values.size());
   if (old.as_built) return first_memories(old, contacts);
   const auto same_id = [](const ContactId& id, const Contact& contact) { return id == contact.id; };
@@ -77,13 +91,17 @@ ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& 
   matched.values.resize(contacts.size());
   matched.ties = old.ties;
   matched.as_built = false;
+  CUPOLA_ASSERT(!poses.empty());
   const OldContacts before(old);
   for (size_t i = 0; i < contacts.size(); ++i) {
-    const ContactId& id = contacts[i].id;
+    const Contact& contact = contacts[i];
+    const ContactId& id = contact.id;
     if (const ContactMemory* memory = before.find(id))
       matched.values[i] = *memory;
+    else if (const ContactMemory* near = before.nearest(id, place_on(poses[contact.block_a], contact)))
+      matched.values[i] = at_place_of(*near, contact.gap);
     else
-      matched.values[i].joint.damage = before.damage_of_patch(id);
+      matched.values[i].joint.damage = 1.0;
     matched.ids.push_back(id);
   }
   return matched;

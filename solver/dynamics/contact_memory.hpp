@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "solver/collision/contact_set.hpp"
@@ -20,6 +21,7 @@ struct JointDamage {
 struct ContactMemory {
   Vec3 impulse = Vec3::Zero();    ///< N s, gamma of the last step in its contact frame, for the warm start
   Vec3 tangent_A = Vec3::Zero();  ///< first tangent of that frame, axes of block a; zero: unknown
+  Vec3 point_A = Vec3::Zero();    ///< m, where the contact was, from the centroid of block a in its axes
   double elastic_gap =
       0.0;  ///< m: penetration caused by the compliance (< 0), or elongation under pull (> 0)
   Vec3 elastic_slip_A = Vec3::Zero();  ///< m, elongation of the tangential spring, axes of block a
@@ -28,9 +30,15 @@ struct ContactMemory {
   Vec3 force_A = Vec3::Zero();     ///< N, r at the end of the last step
   Vec3 filtered_A = Vec3::Zero();  ///< N, s
   int loaded_steps = 0;            ///< steps in succession at whose end the contact was loaded
-  double overlap = 0.0;  ///< m, <= 0: penetration that an impact has left, from which the gap is measured
+  /// m, <= 0, from which the gap is measured: the penetration that an impact has left
+  double rest_gap = 0.0;
   JointDamage joint;
 };
+
+/// ContactMemory::point_A of a contact whose block a has this pose.
+inline Vec3 place_on(const Pose& pose_a, const Contact& contact) {
+  return pose_a.q_WB.conjugate() * (contact.point_a - pose_a.p_WB);
+}
 
 /// State of a tie that is carried from step to step.
 struct TieMemory {
@@ -49,9 +57,10 @@ struct ContactMemories {
   std::vector<ContactMemory>& stored();  ///< values of all contacts
 };
 
-/// Transfers memories to a new set of contacts by identity. A contact without an old memory starts unloaded.
-/// It is bonded if it exists as built; a new point of an old patch has the mean damage of the patch, other
-/// contacts have no bond.
-ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts);
+/// Transfers memories to a new set of contacts by identity. A new point of an old patch takes over what its
+/// nearest old point remembers of the joint, whose points change in number as it moves; `poses` of all blocks.
+/// Any other new contact starts unloaded. It is bonded if it exists as built.
+ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts,
+                               std::span<const Pose> poses = {});
 
 }  // namespace cupola

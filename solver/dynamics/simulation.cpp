@@ -84,7 +84,7 @@ StepReport Simulation::advance(double h_max) {
   heat_contacts(middle.poses);
   const ContactSet& contacts = this->contacts();
   bool changed = detections_followed_ != detector_.num_detections();
-  if (changed) follow_detection(contacts);
+  if (changed) follow_detection(contacts, middle.poses);
   if (options_.sleep && update_sleep(*options_.sleep, islands_, radius_, &state_, &sleep_state_)) {
     reduced_.reset();
     changed = true;
@@ -107,9 +107,9 @@ StepReport Simulation::advance_detected(const ContactSet& contacts, const StepOp
   return report;
 }
 
-void Simulation::follow_detection(const ContactSet& contacts) {
+void Simulation::follow_detection(const ContactSet& contacts, const std::vector<Pose>& contact_poses) {
   detections_followed_ = detector_.num_detections();
-  memories_ = match_memories(std::move(memories_), contacts.points);
+  memories_ = match_memories(std::move(memories_), contacts.points, contact_poses);
   if (options_.sleep) islands_ = islands_of(model_, contacts);
   reduced_.reset();
 }
@@ -178,7 +178,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
       const State again = middle_of_step(model, *state, step);
       detector_.update(again.poses, travel(step.h));
       heat_contacts(again.poses);
-      if (detections_followed_ != detector_.num_detections()) follow_detection(contacts);
+      if (detections_followed_ != detector_.num_detections()) follow_detection(contacts, again.poses);
     }
   }
   report.h = step.h;
@@ -208,7 +208,7 @@ void Simulation::start_from(const LoadedState& loaded) {
   contacts_at_rest(model_, &detector_);
   state_ = loaded.state;
   const ContactSet& contacts = detector_.update(state_.poses);
-  memories_ = match_memories(loaded.memories, contacts.points);
+  memories_ = match_memories(loaded.memories, contacts.points, state_.poses);
   // In the single static step, sliding under the associated law opens a loaded joint by mu times its slip.
   // That opening becomes the zero of its gap.
   std::vector<double> gaps;

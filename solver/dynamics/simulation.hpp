@@ -101,8 +101,8 @@ class Simulation {
   StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
   /// Sets heated_ for the contacts detected last, at the poses for which they were.
   void heat_contacts(const std::vector<Pose>& poses);
-  /// Updates memories and islands after contacts were detected again.
-  void follow_detection(const ContactSet& contacts);
+  /// Updates memories and islands after contacts were detected again, at `contact_poses`.
+  void follow_detection(const ContactSet& contacts, const std::vector<Pose>& contact_poses);
   /// Largest distance that a point of each block moves in a step h under its present velocity and loads, but
   /// for what the margin of detection allows, or that of a support in the step, m (num_blocks).
   std::vector<double> travel(double h) const;

@@ -15,8 +15,8 @@ void visit(Archive& archive, JointDamage& x) {
 
 template <class Archive>
 void visit(Archive& archive, ContactMemory& x) {
-  archive(x.impulse, x.tangent_A, x.elastic_gap, x.elastic_slip_A, x.plastic_slip, x.force_A, x.filtered_A,
-          x.loaded_steps, x.overlap, x.joint);
+  archive(x.impulse, x.tangent_A, x.point_A, x.elastic_gap, x.elastic_slip_A, x.plastic_slip, x.force_A,
+          x.filtered_A, x.loaded_steps, x.rest_gap, x.joint);
 }
 
 template <class Archive>

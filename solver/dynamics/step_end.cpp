@@ -54,9 +54,9 @@ void update_past(const Vec3& force_A, const StepEnds& ends, double moved, const 
   memory->force_A = force_A;
   const bool loaded = memory->impulse[0] > 0.0;
   if (!loaded)
-    memory->overlap = std::min(0.0, std::max(memory->overlap, gap));
+    memory->rest_gap = std::min(0.0, std::max(memory->rest_gap, gap));
   else if (!smooth)
-    memory->overlap = std::min(0.0, gap - memory->elastic_gap);
+    memory->rest_gap = std::min(0.0, gap - memory->elastic_gap);
   // The force of an impact is no force from which the next step could go on.
   const bool met = !smooth && ends.approach > moved;
   memory->loaded_steps = !loaded ? 0 : met ? 1 : memory->loaded_steps + 1;
@@ -86,6 +86,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     const Vec3 u_el = -(b + problem.E.segment<3>(3 * i).cwiseProduct(gamma));
     memory.impulse = gamma;
     memory.tangent_A = state.poses[contact.block_a].q_WB.conjugate() * R_WC.col(1);
+    memory.point_A = place_on(state.poses[contact.block_a], contact);
     const double elastic_gap = b[0] * options.reach_of(b[0], memory.elastic_gap) + h * u_el[0];
     const bool is_pulled = gamma[0] < 0.0 && model.joints.has_strength();
     memory.elastic_gap = is_pulled         ? std::max(0.0, elastic_gap)

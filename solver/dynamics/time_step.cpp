@@ -140,8 +140,8 @@ void set_contact_laws(const Model& model, const State& state, const ContactSet& 
     const bool smooth = options.integrator.is_euler() || has_past(memory, options);
     const double unlimited =
         options.recovery == Recovery::compliant ? memory.elastic_gap + known.to_middle[0] : 0.0;
-    const double excess =
-        std::max(contact.gap - bond.zero_gap - memory.overlap - unlimited, -options.recovery_speed * h_alpha);
+    const double excess = std::max(contact.gap - bond.zero_gap - memory.rest_gap - unlimited,
+                                   -options.recovery_speed * h_alpha);
     double gap = unlimited + excess + known.rest[0];
     // A contact that closes stops there. In the rest of the step it would be pushed back to where it closed.
     if (!smooth) gap = std::max(gap, memory.elastic_gap);
