@@ -10,9 +10,17 @@
 namespace cupola {
 namespace {
 
+/// m. Faces drawn farther apart have no bond: above the rounding of positions, below what matters.
+constexpr double kTouching = 1e-9;
+
 ContactMemories first_memories(const ContactMemories& old, const std::vector<Contact>& contacts) {
   ContactMemories first;
-  for (const Contact& contact : contacts) first.ids.push_back(contact.id);
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    first.ids.push_back(contacts[i].id);
+    if (contacts[i].gap <= kTouching) continue;
+    first.values.resize(contacts.size());
+    first.values[i].joint.damage = first.values[i].joint.step_damage = 1.0;
+  }
   first.ties = old.ties;
   first.as_built = false;
   return first;

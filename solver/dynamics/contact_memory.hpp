@@ -59,7 +59,7 @@ struct ContactMemories {
 
 /// Transfers memories to a new set of contacts by identity. A new point of an old patch takes over what its
 /// nearest old point remembers of the joint, whose points change in number as it moves; `poses` of all blocks.
-/// Any other new contact starts unloaded. It is bonded if it exists as built.
+/// Any other new contact starts unloaded. It is bonded if it exists as built and its faces touch.
 ContactMemories match_memories(ContactMemories old, const std::vector<Contact>& contacts,
                                std::span<const Pose> poses = {});
 

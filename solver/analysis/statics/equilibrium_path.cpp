@@ -123,8 +123,8 @@ void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
   const auto detect = [&] {
     contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(model_, &detector_)
                                                 : detector_.update(start_.poses);
-    if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
     memories_ = match_memories(from.memories, contacts_.points, start_.poses);
+    if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
   };
   detect();
   options_.time_advance = time_advance;

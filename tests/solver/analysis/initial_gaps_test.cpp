@@ -53,6 +53,31 @@ TEST(InitialGaps, CountAsDrawnOrAsErrorsOfTheDrawing) {
   EXPECT_NEAR(rise(high, ignore), -sinks / 12.0, tolerance);
 }
 
+// A block of 10 kN under a fixed lintel: its joints of 1 MPa bond where they touch, and pull across no air.
+TEST(InitialGaps, ArePulledAcrossByNoTension) {
+  Case scene = testing::make_case(0.5, 0.0, 0.01);
+  scene.joints.compliance = {1e-9, 1e-9, Compliance::Per::area};
+  scene.joints.strength = {1e6, 1e6};
+  scene.contact.margin = 0.01;
+  scene.analysis.type = AnalysisType::static_;
+  for (const double gap : {0.0, 1e-3}) {
+    const Assembly room =
+        testing::make_boxes({{.center = {0, 0, -0.5}, .size = {2, 2, 1}, .fixed = true},
+                             {.center = {0, 0, 0.5}},
+                             {.center = {0, 0, 1.5 + gap}, .size = {2, 2, 1}, .fixed = true}});
+    double lintel = 0.0;
+    AnalysisSinks sinks;
+    sinks.frame = [&](const Frame& frame) {
+      lintel = 0.0;
+      for (int i = 0; i < frame.contacts.size(); ++i)
+        if (frame.contacts.block_b[i] == 2) lintel += frame.contacts.normal_force[i];
+    };
+    run_static(scene, room, sinks);
+    const double weight = free_weight(room, testing::kG);
+    EXPECT_NEAR(lintel, gap > 0.0 ? 0.0 : -0.5 * weight, 1e-6 * weight) << gap << ", less the tolerance";
+  }
+}
+
 // Under a growing dead load a path starts from blocks that bear nothing where they were drawn. Its end is the
 // equilibrium of statics, in which the higher pier bears before the others.
 TEST(InitialGaps, OfAnUnloadedPathBearWithTheFirstLoad) {
