@@ -30,7 +30,8 @@ struct ContactMemory {
   Vec3 force_A = Vec3::Zero();     ///< N, r at the end of the last step
   Vec3 filtered_A = Vec3::Zero();  ///< N, s
   int loaded_steps = 0;            ///< steps in succession at whose end the contact was loaded
-  /// m, <= 0, from which the gap is measured: the penetration that an impact has left
+  /// m, from which the gap is measured: < 0 the penetration that an impact has left, > 0 what sliding under
+  /// pressure has opened on a path (see keep_dilatancy())
   double rest_gap = 0.0;
   JointDamage joint;
 };

@@ -11,6 +11,7 @@
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/statics/hung_blocks.hpp"
+#include "solver/analysis/statics/kept_dilatancy.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/conic/motion_proof.hpp"
 #include "solver/dynamics/energy_account.hpp"
@@ -121,8 +122,9 @@ bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
 void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
   start_ = from.state;
   const auto detect = [&] {
-    contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(model_, &detector_)
-                                                : detector_.update(start_.poses);
+    contacts_ = detector_.num_detections() == 0
+                    ? contacts_at_rest(model_, &detector_)
+                    : detector_.update(start_.poses, opened_by_sliding(from.memories, start_.poses.size()));
     memories_ = match_memories(from.memories, contacts_.points, start_.poses);
     if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
   };
@@ -176,6 +178,7 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
   options_.time_advance = solution.time_advance;
   if (solution.outcome != StaticOutcome::equilibrium) return solution;
   loaded_ = loaded_state(model_, start_, contacts_, memories_, solution, options_);
+  keep_dilatancy(solution, options_.solve.law, &loaded_.memories);
   dissipated_ += joint_dissipation(solution.step, solution.step_solution);
   return solution;
 }

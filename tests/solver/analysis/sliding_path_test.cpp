@@ -6,7 +6,7 @@
 namespace cupola::path_test {
 namespace {
 
-constexpr double kFriction = 0.6;
+constexpr double kFriction = 0.6, kSlip = 5e-3;  // m
 
 Case sliding_case(int steps) {
   Case scene = testing::make_case(kFriction, 0.0, 0.01);
@@ -16,6 +16,32 @@ Case sliding_case(int steps) {
   scene.analysis.tolerance = 1e-7;
   scene.analysis.path.steps = steps;
   return scene;
+}
+
+// A block between a floor and a plate, which presses it by 0.1 mm and then moves along by 5 mm. Under the
+// associated law its joint opens by friction times slip, which the floor and the plate prevent: statics press
+// it with a hundred times as much. A path that forgets the opening of each step ends at the force of Coulomb's
+// law; its geometry is that of its steps, which changes the force by 0.3 %.
+TEST(SlidingPath, DilatesByTheSameInAnyNumberOfSteps) {
+  const Assembly pressed =
+      testing::make_boxes({{.center = {0, 0, -0.5}, .size = {4, 4, 1}, .fixed = true},
+                           {.center = {0, 0, 0.1}, .size = {1, 1, 0.2}, .density = 2000},
+                           {.center = {0, 0, 0.35}, .size = {2, 2, 0.3}, .fixed = true}});
+  const auto force = [&](int steps, PathGeometry geometry) {
+    Case scene = sliding_case(steps);
+    scene.analysis.path.geometry = geometry;
+    scene.analysis.path.control = LoadPath::Control{BlockRef{2}, {}, Vec3::UnitX()};
+    scene.supports.moves = {
+        {.region = {.blocks = {BlockRef{2}}}, .displacement = {0, 0, -1e-4}, .time = {}},
+        {.region = {.blocks = {BlockRef{2}}}, .displacement = {kSlip, 0, 0}, .time = RampInTime{}}};
+    const PathResult path = run(scene, pressed);
+    EXPECT_EQ(path.summary.status, Status::stable) << path.summary.message;
+    return path.rows.back()[2];
+  };
+  const double at_once = force(1, PathGeometry::start);
+  EXPECT_GT(at_once, 6e5) << "N; 2.9e4 N under Coulomb's law";
+  for (const int steps : {10, 40}) EXPECT_NEAR(force(steps, PathGeometry::start), at_once, 0.005 * at_once);
+  EXPECT_NEAR(force(10, PathGeometry::end), at_once, 0.005 * at_once);
 }
 
 // The ground of a block that is held moves under it, along both of its sides, and the block turns by rounding:
