@@ -31,11 +31,10 @@ TEST(CaseSection, NamesTheStageShown) {
   const Assembly a = test::column(3);
   Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.6, 0.4);
   frame.time = 2.0;
-  set_role(FrameRole::stage, "stage 1", &frame);
   Summary summary = test::column_summary(a);
   summary.analysis = AnalysisType::staged;
   const std::string page = read_text(test::analysed_column("stages", {frame}, summary) + "/report.html");
-  EXPECT_NE(page.find("<dt>Stage shown</dt><dd>stage 1, frame 1 of 1</dd>"), std::string::npos);
+  EXPECT_NE(page.find("<dt>Stage shown</dt><dd>stage 0, frame 1 of 1</dd>"), std::string::npos);
   EXPECT_EQ(page.find("Time shown"), std::string::npos);
 }
 
