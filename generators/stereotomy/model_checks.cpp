@@ -156,6 +156,29 @@ std::vector<char> joined_sheets(const Assembly& assembly, const std::vector<std:
   return is_joined;
 }
 
+std::vector<HangingCorner> find_hanging_corners(const Assembly& assembly,
+                                                const std::vector<std::pair<int, int>>& joints) {
+  const std::vector<Block>& blocks = assembly.blocks;
+  std::vector<HangingCorner> hanging;
+  for (const Sheet& sheet : assembly.sheets) {
+    if (sheet.thrust_lines != Sheet::ThrustLines::radial) continue;
+    const auto springs = [&](int b) { return !blocks[b].fixed && blocks[b].ring == sheet.first_ring; };
+    DisjointSets corners(blocks.size());
+    std::vector<char> is_borne(blocks.size(), 0);
+    for (const auto& [a, b] : joints) {
+      if (springs(a) && springs(b)) corners.join(a, b);
+      if (springs(a) && !sheet.has_ring(blocks[b].ring)) is_borne[a] = 1;
+      if (springs(b) && !sheet.has_ring(blocks[a].ring)) is_borne[b] = 1;
+    }
+    std::map<int, bool> borne;  // by corner
+    for (int b = 0; b < static_cast<int>(blocks.size()); ++b)
+      if (springs(b)) borne[corners.root(b)] = borne[corners.root(b)] || is_borne[b] != 0;
+    for (const auto& [corner, is_one] : borne)
+      if (!is_one) hanging.push_back({corner, blocks[corner].centroid, sheet.name});
+  }
+  return hanging;
+}
+
 /// Names all pairs at once, the deepest first, and the margin that admits them.
 [[noreturn]] void refuse_overlaps(const Assembly& assembly, const Overlaps& overlaps,
                                   const ModelTolerances& tolerances, const Names& names) {
@@ -227,6 +250,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());
   report->is_joined = joined_sheets(assembly, joints);
+  report->hanging_corners = find_hanging_corners(assembly, joints);
   for (const NarrowJoint& joint : narrow)
     if (!std::ranges::binary_search(joints, std::pair(joint.block_a, joint.block_b)))
       report->narrow_joints.push_back(joint);
@@ -329,6 +353,12 @@ std::vector<std::string> warnings_of(const ModelReport& r, std::span<const Block
         "blocks {} and {}: their joint is only {:.3g} m wide, less than 1e-3 of the smallest block, "
         "and is ignored",
         names.name(joint.block_a), names.name(joint.block_b), joint.width));
+  for (const HangingCorner& corner : r.hanging_corners)
+    warnings.push_back(fmt::format(
+        "a corner of the member {} hangs in the air: no pier or support is under its springer, block {} "
+        "about "
+        "({:.4g}, {:.4g}, {:.4g}) m",
+        corner.member, corner.block, corner.centroid.x(), corner.centroid.y(), corner.centroid.z()));
   if (r.num_supports == 0) warnings.emplace_back(kNoBlockIsFixed);
   return warnings;
 }

@@ -17,6 +17,14 @@ struct NarrowJoint {
   double width = 0.0;  ///< m
 };
 
+/// Stones of the first course of a vault on several springers, with joints between them, under which is
+/// nothing.
+struct HangingCorner {
+  int block = 0;  ///< the first of them
+  Vec3 centroid;  ///< m, of that block
+  std::string member;
+};
+
 /// Faces of two parts of different blocks that form a joint.
 struct FacePair {
   int part_a = 0, part_b = 0;
@@ -38,10 +46,11 @@ struct ModelReport {
   double max_overlap = 0.0;            ///< largest overlap of parts of two blocks; <= 0 if none overlap
   double max_joint_gap = 0.0;          ///< largest distance between the planes of two faces in a joint
   double shortest_edge = 0.0;
-  int islands = 0;                         ///< connected components of the graph of joints and ties
-  std::vector<int> blocks_without_joint;   ///< and without tie
-  std::optional<int> floating;             ///< first block of an island without a support
-  std::vector<char> is_joined;             ///< by sheet: a block has a joint with one of the sheet before
+  int islands = 0;                        ///< connected components of the graph of joints and ties
+  std::vector<int> blocks_without_joint;  ///< and without tie
+  std::optional<int> floating;            ///< first block of an island without a support
+  std::vector<char> is_joined;            ///< by sheet: a block has a joint with one of the sheet before
+  std::vector<HangingCorner> hanging_corners;
   std::vector<NarrowJoint> narrow_joints;  ///< ignored by contact detection
   std::vector<FacePair> joint_faces;       ///< one pair per two parts that meet; only if checked part by part
 };

@@ -136,6 +136,20 @@ TEST(GroinVault, StandsOnAllCopiesOfAMember) {
   EXPECT_FALSE(assembly.sheets[4].on_previous) << "a stack of its own";
 }
 
+// Two of the four piers are missing: the stones of the other corners hold the corners up in the model.
+TEST(GroinVault, WarnsOfCornersOnNothing) {
+  GenerateReport report;
+  generate(on_buttresses(3.6), &report);
+  EXPECT_TRUE(warnings_of(report).empty());
+  Case half = on_buttresses(3.6);
+  half.geometry.members[0].copies->count = 2;
+  generate(half, &report);
+  const std::vector<std::string> warnings = warnings_of(report);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].find("a corner of the member shell hangs in the air"), std::string::npos)
+      << warnings[0];
+}
+
 TEST(GroinVaultErrors, OfSpringersAndButtressesNameTheKey) {
   EXPECT_NE(error_of(vault(7)).find("geometry.surface.plan.springers = 7: must be below 7"),
             std::string::npos)
