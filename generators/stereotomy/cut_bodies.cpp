@@ -278,12 +278,23 @@ class Carving {
       rests.push_back(block);
       for (const size_t i : cells) cells_[i].is_rest = true;
     }
-    for (const int rest : rests) join(rest);
+    // Those that touch no whole stone join what others have become part of.
+    for (bool any = true; any;) {
+      std::vector<size_t> joined;
+      std::erase_if(rests, [&](int rest) {
+        const std::vector<size_t> own = cells_of(rest);
+        const bool is_joined = join(rest);
+        if (is_joined) joined.insert(joined.end(), own.begin(), own.end());
+        return is_joined;
+      });
+      for (const size_t i : joined) cells_[i].is_rest = false;
+      any = !joined.empty();
+    }
   }
 
-  /// Joins a rest to the stone that it touches most widely, in its own course if it can. Rests join no rests:
-  /// those that a level cut leaves of a course would make one slab.
-  void join(int block) {
+  /// Joins a rest to the stone that it touches most widely, in its own course if it can; true if it touches
+  /// one. Rests join no rests: those that a level cut leaves of a course would make one slab.
+  bool join(int block) {
     const Block& laid = assembly_->blocks[origin(block)];
     const std::vector<size_t> own = cells_of(block);
     std::optional<int> widest;
@@ -305,13 +316,14 @@ class Carving {
       }
       if (widest) break;
     }
-    if (!widest) return;
+    if (!widest) return false;
     for (const size_t i : own) {
       cells_[i].block = *widest;
       cells_[i].is_changed = true;
       of_block_[*widest].push_back(i);
     }
     of_block_.erase(block);
+    return true;
   }
 
   MemberStart start_;

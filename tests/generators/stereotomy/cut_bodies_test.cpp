@@ -177,6 +177,28 @@ TEST(CutBodies, ASailVaultStandsOverASquare) {
   EXPECT_NEAR(report.volume / expected, 1.0, 2e-3);
 }
 
+// A rest in a corner touches other rests alone: it joins the stone of which one of them has become a part.
+// Four rests of 0.4 cm3 were left.
+TEST(CutBodies, RestsBetweenRestsJoinTheirStones) {
+  VaultSurface dome;
+  dome.profile.span = 7.8;
+  dome.thickness = 0.25;
+  dome.eye = 0.4;
+  dome.key_stone = true;
+  Case c;
+  c.geometry.surface = dome;
+  c.geometry.bond = RunningBond{20, 40, 2};
+  for (const double x : {1.0, -1.0}) {
+    c.geometry.cuts.push_back(plane({2.5 * x, 0.0, 0.0}, {x, 0.0, 0.0}));
+    c.geometry.cuts.push_back(plane({0.0, 2.5 * x, 0.0}, {0.0, x, 0.0}));
+  }
+  for (Cut& cut : c.geometry.cuts) cut.as = Cut::As::held;
+  ModelReport report;
+  check_and_report(c, &report);
+  // A tenth of a stone near the crown, which are the smallest.
+  EXPECT_GT(report.smallest_block, 1e-4);
+}
+
 // A plane across the wall parts the blocks that it meets, and takes nothing.
 TEST(CutBodies, AJointPartsBlocks) {
   ModelReport whole, parted;
