@@ -57,7 +57,8 @@ double along_wall(const Shell& shell, const Sheet& wall) {
 void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
   struct Extent {
     double from, to;
-    double part;  // of the block's thickness
+    double part;        // of the block's thickness
+    double turn = 0.0;  // rad, along the facets
   };
   const Abscissa across = abscissa_of(e.shell, axis), along = out->arch ? across.turned() : across;
   const auto place = [&](const Vec3& point) {
@@ -73,12 +74,18 @@ void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
       Extent& extent = extents.try_emplace({f.block, ring}, Extent{a, a, part}).first->second;
       for (const Vec3& p : {f.intrados_a, f.intrados_b}) {
         const double c = out->vault ? extent.from + wrapped(place(p) - extent.from) : place(p);
-        extent = {std::min(extent.from, c), std::max(extent.to, c), part};
+        extent = {std::min(extent.from, c), std::max(extent.to, c), part, extent.turn};
       }
+      if (out->vault) extent.turn += wrapped(place(f.intrados_b) - a);
     }
   }
+  constexpr double kAround = 2.0 * std::numbers::pi * (1.0 - 1e-9);  // but for rounding
   const double unit = out->vault ? kDegrees : 1.0;
-  for (const auto& [key, extent] : extents) {
+  for (auto& [key, extent] : extents) {
+    if (std::abs(extent.turn) >= kAround) {  // a key stone, whose last facet ends where the first begins
+      extent.from = -std::numbers::pi;
+      extent.to = std::numbers::pi;
+    }
     const BlockFields& fields = e.last.fields[key.first];
     out->boxes.push_back({key.first, key.second, unit * extent.from, unit * extent.to,
                           extent.part * fields.meridional_force, extent.part * fields.hoop_force,

@@ -18,6 +18,7 @@
 #include "postproc/tables/mesh_output.hpp"
 #include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/figures/figure_data.hpp"
+#include "tests/postproc/mechanics/key_stone.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::figures_test {
@@ -184,6 +185,20 @@ TEST(ShellMaps, MeasureAlongTheWall) {
       EXPECT_NEAR(box.to, degrees < 100.0 ? 1.2 : 0.0, 1e-12);
     }
   }
+}
+
+// Its last facet ends where the first begins: the map had a hole as wide as one of them.
+TEST(ShellMaps, HaveAKeyStoneAroundTheWholeAxis) {
+  Evaluation e;
+  e.assembly = test::KeyStone(0.3).assembly;
+  e.shell = shell_of(e.assembly, Vec3::UnitZ());
+  e.last.fields.resize(e.assembly.blocks.size());
+  const ShellMap map = shell_maps(e).front();
+  const auto key = std::ranges::find(map.boxes, test::kRound, &ShellBox::block);
+  ASSERT_NE(key, map.boxes.end());
+  EXPECT_EQ(key->from, -180.0);
+  EXPECT_EQ(key->to, 180.0);
+  EXPECT_NEAR(map.boxes.front().to - map.boxes.front().from, 45.0, 1e-9);  // deg, of a wedge: rounding
 }
 
 TEST(ShellMaps, ReadBackUnchangedFromTheTable) {
