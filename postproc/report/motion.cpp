@@ -31,11 +31,13 @@ int count_moving(const Evaluation& e, double least) {
   return static_cast<int>(std::ranges::count_if(distances_of(e), [least](double d) { return d > least; }));
 }
 
-/// Bodies that move: all groups but those of the supports and of blocks that are not laid.
-size_t count_bodies(const Evaluation& e) {
+/// Bodies of blocks that move farther than `least`, m, >= 0: groups but those of the supports and of blocks
+/// that are not laid.
+size_t count_bodies(const Evaluation& e, double least) {
+  const std::vector<double> distances = distances_of(e);
   std::set<int> bodies;
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
-    if (e.last.frame.blocks.displacement[b].norm() > 0.0) bodies.insert(e.last.groups[b]);
+    if (distances[b] > least) bodies.insert(e.last.groups[b]);
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b)
     if (e.assembly.blocks[b].fixed) bodies.erase(e.last.groups[b]);
   return bodies.size();
@@ -96,12 +98,11 @@ void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& his
 
 void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) {
   constexpr double kSlow = 0.1;  // of the fastest block
-  const double fastest = farthest_block(e).displacement;
-  const size_t bodies = count_bodies(e);
-  out->push_back(
-      {"Blocks that begin to move",
-       fmt::format("{} of {}", count_moving(e, kSlow * fastest), e.summary.free_blocks),
-       fmt::format("faster than a tenth of the fastest; they form {}", counted(bodies, "body", "bodies"))});
+  const double least = kSlow * farthest_block(e).displacement;
+  out->push_back({"Blocks that begin to move",
+                  fmt::format("{} of {}", count_moving(e, least), e.summary.free_blocks),
+                  fmt::format("faster than a tenth of the fastest; they form {}",
+                              counted(count_bodies(e, least), "body", "bodies"))});
   const std::optional<MovingJoints> joints = moving_joints(e);
   if (!joints) return;
   constexpr double kRounding = 1e-6;
@@ -117,7 +118,7 @@ void add_motion_in_time(const Evaluation& e, const std::vector<HistoryRow>& hist
                         std::vector<std::string>* out) {
   const double threshold = e.scene.analysis.thresholds.collapse();
   const Farthest farthest = farthest_block(e);
-  const size_t bodies = count_bodies(e);
+  const size_t bodies = count_bodies(e, 0.0);
   if (const LargestDisplacement largest = largest_displacement(e); largest.at_end)
     out->push_back(fmt::format("The largest displacement of the motion is {:.3g} m{}, at {:.4g} s.",
                                largest.distance, counted_from(e, ", "), largest.time));

@@ -50,6 +50,18 @@ TEST(ReturnedMotion, CollapseSaysThatItIsAtRestAtItsEnd) {
   EXPECT_TRUE(has(motion_sentences(e, {}).front(), "largest displacement of the motion is 0.154 m"));
 }
 
+// Slow blocks are counted neither among those that begin to move nor among their bodies.
+TEST(Mechanism, HasNoMoreBodiesThanBlocks) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.last.frame.role = FrameRole::mechanism;
+  e.last.groups = {0, 1, 2, 3};
+  e.last.frame.blocks.displacement = {Vec3::Zero(), {0.05, 0, 0}, {0.06, 0, 0}, {1, 0, 0}};
+  e.summary.status = Status::moving;
+  const KeyNumber number = motion_numbers(e, {}).at(0);
+  EXPECT_EQ(number.value, "1 of 3");
+  EXPECT_TRUE(number.detail.ends_with("they form 1 body")) << number.detail;
+}
+
 TEST(ReturnedMotion, RestSaysHowFarItWent) {
   const std::string reason = reason_for_verdict(returned(Status::stable, 0.222));
   EXPECT_TRUE(has(reason,
