@@ -154,10 +154,11 @@ void refuse_floating(const Geometry& geometry, const Assembly& assembly, const M
 void refuse_misplaced(const std::vector<Storey>& storeys, const ModelReport& report) {
   for (size_t i = 1; i < storeys.size(); ++i)
     if (storeys[i].stands_on_previous && report.is_joined[i] == 0)
-      throw InputError(
-          fmt::format("{}.on = {}: nothing of {} touches {}, on whose axis it stands; an arch on two walls "
-                      "requires the plane of their `mirror` through its middle",
-                      storeys[i].key, storeys[i - 1].name, storeys[i].name, storeys[i - 1].name));
+      throw InputError(fmt::format(
+          "{}.on = {}: nothing of {} touches {}, on whose axis it stands; an arch on two walls "
+          "requires the plane of their `mirror` through its middle, a half arch on one a `straight` vault "
+          "of its span and plan as its pier",
+          storeys[i].key, storeys[i - 1].name, storeys[i].name, storeys[i - 1].name));
 }
 
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {

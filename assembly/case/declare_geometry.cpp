@@ -162,8 +162,9 @@ void declare_geometry(Section& s, Geometry& geometry) {
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || !geometry.window, "chains", "requires a whole vault without a window");
   s.rule(!geometry.affine || !geometry.window, "affine", "requires a whole vault without a window");
-  s.rule(!geometry.affine || (geometry.affine->rake == 0.0 && geometry.affine->lean == 0.0) || !closed,
-         "affine", "lean and rake require an arch or barrel");
+  s.rule(
+      !geometry.affine || (geometry.affine->rake == 0.0 && geometry.affine->lean == 0.0) || !closed, "affine",
+      "lean and rake require an arch or barrel; a leaning tower stands upright under a tilted loads.gravity");
   s.rule(geometry.base_blocks == 1 || whole, "base_blocks", "requires a whole dome or octagonal vault");
   for (const Chain& chain : geometry.chains) check_chain(s, geometry, chain);
 }

@@ -205,7 +205,8 @@ void declare_vault(Section& s, VaultSurface& vault) {
   s.rule(!is_groin || vault.voussoir_segments == 1, "voussoir_segments",
          "must be 1 in a groin vault; lay more courses instead");
   s.rule(!is_groin || vault.beds == VaultSurface::Beds::normal, "beds", "must be normal in a groin vault");
-  s.rule(!vault.key_stone || (vault.eye > 0.0 && !on_line), "key_stone", "requires a closed plan and an eye");
+  s.rule(!vault.key_stone || !on_line, "key_stone", "requires a closed plan");
+  s.rule(!vault.key_stone || vault.eye > 0.0, "key_stone", "requires the radius of its `eye`");
   s.rule(
       !vault.key_stone || vault.plan.kind == Plan::Kind::circle || vault.beds == VaultSurface::Beds::normal,
       "key_stone", "requires beds: normal over a polygon");

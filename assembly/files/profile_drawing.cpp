@@ -272,6 +272,15 @@ std::vector<Stroke> mapped(std::vector<Stroke> strokes, const Eigen::Affine2d& m
   return strokes;
 }
 
+double highest_of(const std::vector<Stroke>& strokes) {
+  constexpr int kSamples = 64;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Stroke& stroke : strokes)
+    for (int i = 0; i <= kSamples; ++i)
+      highest = std::max(highest, stroke.at(static_cast<double>(i) / kSamples).y());
+  return highest;
+}
+
 /// The half on the right of the axis x = 0, from the springing at z = 0 to the crown.
 std::vector<Stroke> half_section(std::vector<Stroke> strokes, const Drawing& drawing) {
   if (strokes.back().to.y() < strokes.front().from.y()) strokes = reversed(std::move(strokes));
@@ -283,7 +292,15 @@ std::vector<Stroke> half_section(std::vector<Stroke> strokes, const Drawing& dra
   strokes = mapped(std::move(strokes), Eigen::Affine2d(Eigen::Translation2d(-origin)));
   const Eigen::Affine2d mirror(Eigen::Scaling(-1.0, 1.0));
   if (strokes.front().from.x() < 0.0) strokes = mapped(std::move(strokes), mirror);
-  if (!whole) return strokes;
+  if (!whole) {
+    const double width = std::abs(head.x() - foot.x()), highest = highest_of(strokes);
+    if (highest > head.y() - foot.y() + kEqual * width)
+      drawing.fail(0, fmt::format("it ends {:.2g} of its width below its highest point, as an arch between "
+                                  "springings at two heights: give that as a `chain` of points from x > 0 to "
+                                  "x < 0; a half section ends at the crown",
+                                  (highest - head.y() + foot.y()) / width));
+    return strokes;
+  }
   const std::vector<Stroke> right = up_to_axis(strokes, 0.0),
                             left = up_to_axis(mapped(reversed(strokes), mirror), 0.0);
   const double width = std::abs(head.x() - foot.x()), most = farthest(left, right);

@@ -134,7 +134,11 @@ void add_places(const Openings& group, const SurfaceMap& surface, const std::str
 std::vector<OpeningPlace> opening_places(const std::vector<Openings>& openings, const SurfaceMap& surface,
                                          const std::string& key) {
   std::vector<OpeningPlace> places;
-  if (!openings.empty() && !surface.closed) throw InputError(key + ": requires a closed plan");
+  if (!openings.empty() && !surface.closed)
+    throw InputError(
+        key +
+        ": requires a closed plan; in a plane wall draw windows and their lintels as letters of a "
+        "bond of `type: drawn`, or take windows alone away by `cuts`");
   for (size_t i = 0; i < openings.size(); ++i)
     add_places(openings[i], surface, fmt::format("{}[{}]", key, i), &places);
   return places;

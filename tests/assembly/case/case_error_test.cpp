@@ -60,7 +60,9 @@ const BadCase kBadCases[] = {
      "flat}}}\n",
      "bad.yaml:1:93: error: geometry.bond.kinds.z: unknown key; did you mean a?"},
     {"LeaningDome", "geometry: {affine: {lean: 0.2}, surface: {type: dome}, bond: {type: running}}\n",
-     "bad.yaml:1:20: error: geometry.affine = {...}: lean and rake require an arch or barrel"},
+     "bad.yaml:1:20: error: geometry.affine = {...}: lean and rake require an arch or barrel; a leaning "
+     "tower "
+     "stands upright under a tilted loads.gravity"},
     {"NanWord", kGood + "  friction: nan\n",
      "bad.yaml:6:13: error: joints.friction = nan: must be a finite number"},
     {"Infinite", kGood + "  friction: inf\n",

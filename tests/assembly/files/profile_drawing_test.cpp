@@ -119,6 +119,8 @@ TEST(ProfileDrawing, RefusesWhatIsNoSection) {
   EXPECT_NE(message_of("<path d=\"M 0,0 L 1,1\" transform=\"twist(3)\"/>").find("transform twist(3)"),
             std::string::npos);
   EXPECT_NE(message_of("<path d=\"M 0,0 L 20,-40 L 100,0\"/>").find("its halves differ"), std::string::npos);
+  EXPECT_NE(message_of("<path d=\"M 0,0 L 20,-40 L 40,-10\"/>").find("springings at two heights"),
+            std::string::npos);
   EXPECT_NE(message_of("<path d=\"M 0,0 L 0,-40\"/>").find("the span would be 0"), std::string::npos);
   EXPECT_NE(message_of("<path").find("no SVG drawing"), std::string::npos);
 }
