@@ -77,7 +77,7 @@ void declare_quantity(Section& s, ForceQuantity& quantity) {
       "type", quantity,
       {alternative<ForceQuantity>("thrust",
                                   "outward horizontal force on the supports, each joint along the direction "
-                                  "at its centroid; of an arch at one springing",
+                                  "at its centroid; of an arch at one springing; of each stack of members",
                                   declare_thrust),
        alternative<ForceQuantity>("reaction", "force of a block on the supports", declare_reaction),
        alternative<ForceQuantity>("joint", "force in the joint of two blocks", declare_joint),

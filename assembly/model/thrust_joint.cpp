@@ -1,6 +1,7 @@
 #include "assembly/model/thrust_joint.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace cupola {
@@ -16,23 +17,70 @@ bool bears(const Assembly& assembly, int lower, int upper, JointKind kind, const
   return rise > kLevel || (rise >= -kLevel && kind != JointKind::head);
 }
 
+/// m, halfway between the ends of the stones of an arch along x in its own frame; 0 of others.
+double middle_of(const Assembly& assembly, const Sheet& sheet) {
+  if (sheet.thrust_lines != Sheet::ThrustLines::one) return 0.0;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed || (sheet.num_rings > 0 && !sheet.has_ring(part.ring))) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+      for (const int v : assembly.face(f)) {
+        const double x = sheet.own(assembly.vertices[v]).x();
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+  }
+  return low <= high ? 0.5 * (low + high) : 0.0;
+}
+
 }  // namespace
 
-int bearer_of_thrust(const Assembly& assembly, const Sheet& sheet, const Joint& joint, const Vec3& centroid,
-                     const Vec3& normal) {
-  const auto [first, end] = assembly.stack_of(sheet.first_ring);
-  const auto course = [&assembly](int block) {
-    return assembly.blocks[block].fixed ? -1 : std::max(assembly.blocks[block].ring, 0);
+std::vector<const Sheet*> pushing_sheets(const Assembly& assembly) {
+  std::vector<const Sheet*> pushing;
+  int last = -1;  // first course of the stack found last
+  for (size_t i = assembly.sheets.size(); i-- > 0;) {
+    const Sheet& sheet = assembly.sheets[i];
+    const int first = assembly.stack_of(sheet.first_ring).first;
+    if (sheet.thrust_lines == Sheet::ThrustLines::none || first == last) continue;
+    pushing.push_back(&sheet);
+    last = first;
+  }
+  return pushing;
+}
+
+ThrustJoints::ThrustJoints(const Assembly& assembly) : assembly_(assembly) {
+  for (const Sheet& sheet : assembly.sheets) middles_.push_back(middle_of(assembly, sheet));
+}
+
+Vec3 ThrustJoints::outward(const Sheet& sheet, const Vec3& point) const {
+  const double middle = middles_[&sheet - assembly_.sheets.data()];
+  return sheet.outward(point - middle * sheet.towards(0.0)).value();
+}
+
+Vec3 ThrustJoints::outward(int ring, const Vec3& point) const {
+  const Sheet* vault = assembly_.vault_of(ring);
+  return vault ? outward(*vault, point) : assembly_.outward(ring, point);
+}
+
+bool ThrustJoints::is_at_far_side(const Sheet& sheet, const Vec3& point) const {
+  return sheet.thrust_lines == Sheet::ThrustLines::one && outward(sheet, point).dot(sheet.towards(0.0)) < 0.0;
+}
+
+int ThrustJoints::bearer(const Sheet& sheet, const Joint& joint, const Vec3& centroid,
+                         const Vec3& normal) const {
+  const auto [first, end] = assembly_.stack_of(sheet.first_ring);
+  const auto course = [this](int block) {
+    return assembly_.blocks[block].fixed ? -1 : std::max(assembly_.blocks[block].ring, 0);
   };
   const auto [lower, upper] = course(joint.block_a) < course(joint.block_b)
                                   ? std::pair(joint.block_a, joint.block_b)
                                   : std::pair(joint.block_b, joint.block_a);
   if (course(upper) < first || course(upper) >= std::max(end, 1) || course(lower) >= first) return -1;
-  if (assembly.blocks[lower].fixed) return lower;
-  const bool far_side = sheet.thrust_lines == Sheet::ThrustLines::one && sheet.own(centroid).x() < 0.0;
-  const Block& block = assembly.blocks[upper];
-  const bool stands = far_side ? block.ring + block.num_rings == end : block.ring == first;
-  return stands && bears(assembly, lower, upper, joint.kind, normal) ? lower : -1;
+  if (assembly_.blocks[lower].fixed) return lower;
+  const Block& block = assembly_.blocks[upper];
+  const bool stands =
+      is_at_far_side(sheet, centroid) ? block.ring + block.num_rings == end : block.ring == first;
+  return stands && bears(assembly_, lower, upper, joint.kind, normal) ? lower : -1;
 }
 
 }  // namespace cupola

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assembly/model/thrust_joint.hpp"
+#include "postproc/mechanics/shell.hpp"
 
 namespace cupola {
 namespace {
@@ -20,6 +21,28 @@ std::optional<double> sum_over_supports(const Evaluation& e) {
   double sum = 0.0;
   for (const Reaction& reaction : e.reactions) sum += reaction.outward;
   return above(sum, e.last.joints.floor.force);
+}
+
+/// True if stones of the stack lie at every azimuth about its axis: cuts may have left half a dome.
+bool surrounds_its_axis(const Evaluation& e, const Sheet& sheet) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  std::vector<std::pair<double, double>> spans;  // rad, unwrapped
+  double joint = 0.0;  // rad, the widest gap of joints above each other, as imperfections leave them
+  for (int ring = first; ring < std::min(end, e.shell.num_rings()); ++ring)
+    for (const BlockBed& block : e.shell.blocks[ring]) {
+      const double from = wrapped(block.from), to = from + block.to - block.from;
+      spans.emplace_back(from, to);
+      spans.emplace_back(from - kTurn, to - kTurn);
+      joint = 0.5 * e.shell.block_width_rad[ring];
+    }
+  std::ranges::sort(spans);
+  double reached = -0.5 * kTurn;
+  for (const auto& [from, to] : spans) {
+    if (from > reached + joint) return false;
+    reached = std::max(reached, to);
+  }
+  return reached > 0.5 * kTurn - joint;
 }
 
 /// True if all loads are vertical and joints are all that holds.
@@ -36,27 +59,31 @@ bool only_weighs(const Evaluation& e) {
          });
 }
 
+/// The first and the last course of the stack of a sheet that have stones.
+std::pair<int, int> courses_built(const Assembly& assembly, const Sheet& sheet) {
+  const auto [first, end] = assembly.stack_of(sheet.first_ring);
+  int lowest = end, highest = first;
+  for (const Block& block : assembly.blocks) {
+    const int ring = ring_above_support(block);
+    if (ring < first || ring >= end) continue;
+    lowest = std::min(lowest, ring);
+    highest = std::max(highest, ring + block.num_rings - 1);
+  }
+  return {lowest < end ? lowest : first, highest};
+}
+
 }  // namespace
 
 std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
-  std::vector<const Sheet*> pushing;
-  const std::vector<Sheet>& sheets = e.assembly.sheets;
-  for (size_t i = sheets.size(); i-- > 0;) {
-    if (sheets[i].num_rings == 0 || sheets[i].thrust_lines == Sheet::ThrustLines::none) continue;
-    const int first = e.assembly.stack_of(sheets[i].first_ring).first;
-    if (!pushing.empty() && e.assembly.stack_of(pushing.back()->first_ring).first == first) continue;
-    if (!e.rings.empty() && base_of(e, sheets[i]).blocks == 0) continue;
-    pushing.push_back(&sheets[i]);
-  }
+  std::vector<const Sheet*> pushing = pushing_sheets(e.assembly);
+  std::erase_if(pushing, [&e](const Sheet* sheet) {
+    return sheet->num_rings == 0 || (!e.rings.empty() && base_of(e, *sheet).blocks == 0);
+  });
   return pushing;
 }
 
 int lowest_course(const Assembly& assembly, const Sheet& sheet) {
-  const auto [first, end] = assembly.stack_of(sheet.first_ring);
-  int lowest = end;
-  for (const Block& block : assembly.blocks)
-    if (const int ring = ring_above_support(block); ring >= first) lowest = std::min(lowest, ring);
-  return lowest < end ? lowest : first;
+  return courses_built(assembly, sheet).first;
 }
 
 const RingSum& base_of(const Evaluation& e, const Sheet& sheet) {
@@ -69,21 +96,39 @@ bool alike(double a, double b) {
 
 std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
   const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
-  std::array<std::optional<double>, 2> sides;  // the second of an arch at x < 0
+  const ThrustJoints thrust_joints(e.assembly);
+  const auto [lowest, highest] = courses_built(e.assembly, sheet);
+  std::array<std::optional<Thrust>, 2> sides;  // the second of an arch where its courses end
   for (const JointWrench& joint : e.last.joints.wrenches) {
-    const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid, joint.patch.plane.normal);
+    const int bearer = thrust_joints.bearer(sheet, joint, joint.centroid, joint.patch.plane.normal);
     if (bearer < 0) continue;
-    const Vec3 outward = sheet.outward(joint.centroid).value();
-    std::optional<double>& side = sides[arch && outward.dot(sheet.towards(0.0)) < 0.0 ? 1 : 0];
-    side = side.value_or(0.0) + outward.dot(wrench_on(joint, bearer).force);
+    const bool far = thrust_joints.is_at_far_side(sheet, joint.centroid);
+    const int pushing = bearer == joint.block_a ? joint.block_b : joint.block_a;
+    const Block& block = e.assembly.blocks[pushing];
+    const double force =
+        thrust_joints.outward(block.ring, joint.centroid).dot(wrench_on(joint, bearer).force);
+    std::optional<Thrust>& side = sides[far ? 1 : 0];
+    if (!side) side.emplace();
+    side->force += force;
+    if (!e.assembly.blocks[bearer].fixed) {
+      side->on_blocks = true;
+      continue;
+    }
+    side->held_higher |= far ? block.ring + block.num_rings <= highest : block.ring > lowest;
+    auto support = std::ranges::find(side->supports, bearer, &Reaction::block);
+    if (support == side->supports.end()) support = side->supports.insert(support, {bearer, block.ring});
+    support->outward += force;
+    support->length += support_length(joint, e.assembly, pushing, e.shell);
   }
-  const auto thrust = [&](double force, const Vec3& towards) {
-    return Thrust{above(force, e.last.joints.floor.force), arch ? std::optional(towards) : std::nullopt};
-  };
-  std::vector<Thrust> thrusts{thrust(sides[0].value_or(0.0), sheet.towards(0.0))};
-  if (!sides[1]) return thrusts;
-  thrusts.push_back(thrust(*sides[1], -sheet.towards(0.0)));
-  if (thrusts[1].force > thrusts[0].force && !alike(thrusts[0].force, thrusts[1].force))
+  if (!sides[0]) sides[0].emplace();
+  std::vector<Thrust> thrusts;
+  for (std::optional<Thrust>& side : sides) {
+    if (!side) continue;
+    side->force = above(side->force, e.last.joints.floor.force);
+    if (arch) side->towards = thrusts.empty() ? sheet.towards(0.0) : Vec3(-sheet.towards(0.0));
+    thrusts.push_back(std::move(*side));
+  }
+  if (thrusts.size() > 1 && thrusts[1].force > thrusts[0].force && !alike(thrusts[0].force, thrusts[1].force))
     std::swap(thrusts[0], thrusts[1]);
   return thrusts;
 }
@@ -98,7 +143,9 @@ std::optional<double> outward_thrust(const Evaluation& e) {
 std::optional<double> net_hoop_tension(const Evaluation& e, double thrust) {
   if (!std::isfinite(thrust) || thrust >= 0.0 || !only_weighs(e)) return std::nullopt;
   const std::vector<const Sheet*> pushing = pushing_sheets(e);
-  if (pushing.size() != 1 || !pushing.front()->closed) return std::nullopt;
+  if (pushing.size() != 1 || !pushing.front()->closed || !surrounds_its_axis(e, *pushing.front()) ||
+      thrusts_of(e, *pushing.front()).front().held_higher)
+    return std::nullopt;
   return -thrust / (2.0 * std::numbers::pi);
 }
 

@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// Of each stack the uppermost sheet that has an outside, as walls have not; the last stack first. Without
-/// stacks of which no block of the lowest course is at rest: they have fallen, or are not laid.
+/// Those of the assembly, without stacks of which no block of the lowest course is at rest: they have fallen,
+/// or are not laid. Empty without courses.
 std::vector<const Sheet*> pushing_sheets(const Evaluation& evaluation);
 
 /// The lowest course of the stack of a sheet that has stones: cuts may have removed others as a whole.
@@ -19,8 +19,11 @@ const RingSum& base_of(const Evaluation& evaluation, const Sheet& sheet);
 
 /// The outward thrust of a stack, of an arch at one springing.
 struct Thrust {
-  double force = 0.0;           ///< N
-  std::optional<Vec3> towards;  ///< of an arch: horizontal unit vector outwards at that springing
+  double force = 0.0;              ///< N
+  std::optional<Vec3> towards;     ///< of an arch: horizontal unit vector outwards at that springing
+  std::vector<Reaction> supports;  ///< its part on each, of joints alone
+  bool on_blocks = false;          ///< also on blocks of other stacks
+  bool held_higher = false;        ///< supports hold courses above the first, of an arch below its last, too
 };
 
 /// True for two values that are equal but for a thousandth.
@@ -35,8 +38,9 @@ std::vector<Thrust> thrusts_of(const Evaluation& evaluation, const Sheet& sheet)
 /// its lowest course.
 std::optional<double> outward_thrust(const Evaluation& evaluation);
 
-/// N, the hoop tension of all courses less their compression where the outward thrust is negative: rings that
-/// only weigh pull with it over 2 pi. None of a positive thrust, and with other loads, ties or strength.
+/// N, the hoop tension of all courses less their compression where the outward thrust is negative: closed
+/// rings that only weigh pull with it over 2 pi. None of a positive thrust, with other loads, ties or
+/// strength, where cuts opened the rings, and where supports hold higher courses.
 std::optional<double> net_hoop_tension(const Evaluation& evaluation, double thrust);
 
 }  // namespace cupola

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "assembly/base/disjoint_sets.hpp"
+#include "assembly/model/thrust_joint.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/ring_sums.hpp"
 
@@ -42,9 +43,9 @@ double share_covered(const std::vector<BedFacet>& bed, const BedFacet& at) {
   return covered;
 }
 
-/// m: the area of a joint on a support over the thickness of all wythes along the nearest facet on the beds
-/// of the block that it carries; NaN without one.
-double length_of(const JointWrench& joint, const Assembly& assembly, int carried, const Shell& shell) {
+}  // namespace
+
+double support_length(const JointWrench& joint, const Assembly& assembly, int carried, const Shell& shell) {
   const Block& block = assembly.blocks[carried];
   double length = std::numeric_limits<double>::quiet_NaN(), least = std::numeric_limits<double>::infinity();
   for (const int bed : {block.ring, shell.bed_above(block.ring + block.num_rings - 1)}) {
@@ -65,10 +66,9 @@ double length_of(const JointWrench& joint, const Assembly& assembly, int carried
   return length;
 }
 
-}  // namespace
-
 std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWrenches& joints,
                                         const Shell& shell, const TieTable& ties, int num_ties) {
+  const ThrustJoints thrust(assembly);
   std::map<int, Reaction> found;
   for (const JointWrench& joint : joints.wrenches) {
     const bool a_fixed = assembly.blocks[joint.block_a].fixed;
@@ -80,8 +80,8 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     Reaction& reaction = found.try_emplace(support, Reaction{support, ring}).first->second;
     reaction.ring = std::min(reaction.ring, ring);
     reaction.force += force;
-    reaction.outward += force.dot(assembly.outward(ring, joint.centroid));
-    reaction.length += length_of(joint, assembly, carried, shell);
+    reaction.outward += force.dot(thrust.outward(ring, joint.centroid));
+    reaction.length += support_length(joint, assembly, carried, shell);
   }
   for (int i = 0; i < num_ties; ++i) {
     const int a = ties.block_a[i], b = ties.block_b[i];

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/thrust_joint.hpp"
 #include "postproc/mechanics/chain_forces.hpp"
 #include "postproc/mechanics/stage_blocks.hpp"
 
@@ -115,6 +116,12 @@ std::optional<int> on_other_stack(const Assembly& assembly, const JointWrench& j
   return stands ? std::optional(upper) : std::nullopt;
 }
 
+/// True for the upright face of a support, as of a wall that holds the end of a course: it is not its bed.
+bool holds_end(const Assembly& assembly, int below, const JointWrench& joint) {
+  constexpr double kUpright = 1e-6;  // cosine; planes are exact to rounding
+  return assembly.blocks[below].fixed && std::abs(joint.patch.plane.normal.z()) <= kUpright;
+}
+
 /// Fills in how evenly the blocks of each ring are loaded.
 void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
                     const std::vector<Wrench>& from_below, std::vector<RingSum>* rings) {
@@ -122,10 +129,11 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   std::vector<double> ring_area(rings->size(), 0.0), moment(ring_area);  // m2, and m3 of heights
   std::vector<double> leaning_area(ring_area), leaning_moment(ring_area);
   std::vector<char> is_carried(from_below.size(), 0);
+  const ThrustJoints thrust(assembly);
   for (const JointWrench& joint : joints.wrenches) {
     if (const auto springer = on_other_stack(assembly, joint); springer && joint.carried < 0) {
       const int k = ring_above_support(assembly.blocks[*springer]);
-      (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, *springer).force);
+      (*rings)[k].radial_thrust -= thrust.outward(k, joint.centroid).dot(wrench_on(joint, *springer).force);
       leaning_moment[k] += joint.area * joint.patch.centroid.z();
       leaning_area[k] += joint.area;
     }
@@ -135,14 +143,15 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
     normal_force[carried] += joint.normal_force;
     area[carried] += joint.area;
     const int k = ring_above_support(assembly.blocks[carried]);
+    const int below = carried == joint.block_a ? joint.block_b : joint.block_a;
     RingSum& ring = (*rings)[k];
-    moment[k] += joint.area * joint.patch.centroid.z();
-    ring_area[k] += joint.area;
+    const bool end = holds_end(assembly, below, joint);
+    (end ? leaning_moment : moment)[k] += joint.area * joint.patch.centroid.z();
+    (end ? leaning_area : ring_area)[k] += joint.area;
     ring.largest_friction_use = std::fmax(ring.largest_friction_use, joint.friction_use);  // skips NaN
     ring.largest_kern = std::fmax(ring.largest_kern, joint.kern);
-    const int below = carried == joint.block_a ? joint.block_b : joint.block_a;
     if (ring_above_support(assembly.blocks[below]) < assembly.stack_of(k).first)
-      ring.radial_thrust -= assembly.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);
+      ring.radial_thrust -= thrust.outward(k, joint.centroid).dot(wrench_on(joint, carried).force);
   }
   std::vector<std::vector<double>> resultants(rings->size()), pressures(rings->size());
   for (size_t b = 0; b < from_below.size(); ++b) {

@@ -45,7 +45,7 @@ KeyNumber range_number_of(const ForceRange& range) {
 
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
   for (const ForceRange& range : e.summary.ranges)
-    if (out->size() < 2 && range.quantity != "thrust") out->push_back(range_number_of(range));
+    if (out->size() < 2 && !range.quantity.starts_with("thrust")) out->push_back(range_number_of(range));
   if (std::optional<KeyNumber> thrust = thrust_answer(e)) {
     const bool first = !e.summary.ranges.empty() && !e.summary.ranges.front().quantity.compare("thrust");
     out->insert(first ? out->begin() : out->end(), std::move(*thrust));

@@ -56,23 +56,21 @@ std::string sides_text(const std::vector<Thrust>& thrusts) {
                      direction_text(*thrusts[1].towards));
 }
 
-/// The supports on which the stack of a sheet pushes, of an arch those on one side.
-std::vector<Reaction> thrusting(const Evaluation& e, const Sheet& sheet, const Thrust& thrust) {
-  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
-  std::vector<Reaction> at;
-  for (const Reaction& r : e.reactions) {
-    if (r.ring < first || r.ring >= end) continue;
-    const Vec3 from_axis = e.assembly.blocks[r.block].centroid - sheet.origin;
-    if (!thrust.towards || thrust.towards->dot(from_axis) > 0.0) at.push_back(r);
-  }
-  return at;
+/// N, the part of a thrust that supports bear; all of that on other stacks alone.
+double on_supports(const Thrust& thrust) {
+  if (!thrust.on_blocks || thrust.supports.empty()) return thrust.force;
+  double sum = 0.0;
+  for (const Reaction& r : thrust.supports) sum += r.outward;
+  return sum;
 }
 
 /// m, of the supports along the shell; of an arch on other stacks, which has none, that of its first course.
-double length_of(const Evaluation& e, const Sheet& sheet, const std::vector<Reaction>& supports) {
+/// 0: supports of other courses bear the thrust, too.
+double length_of(const Evaluation& e, const Sheet& sheet, const Thrust& thrust) {
   double length = 0.0;
-  for (const Reaction& r : supports) length += r.length;
-  if (!supports.empty() || sheet.thrust_lines != Sheet::ThrustLines::one) return length;
+  if (thrust.held_higher) return length;
+  for (const Reaction& r : thrust.supports) length += r.length;
+  if (!thrust.supports.empty() || sheet.thrust_lines != Sheet::ThrustLines::one) return length;
   const Vec3 along(-std::sin(sheet.turn), std::cos(sheet.turn), 0.0);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Part& part : e.assembly.parts)
@@ -108,16 +106,8 @@ const RingSum* springing_of(const Evaluation& e, const Sheet& sheet) {
 
 constexpr const char* kAndHigher = ", and at supports of higher courses";
 
-/// True if supports hold higher courses too, as walls hold the edges of a vault or the ends of a barrel.
-bool is_held_higher(const Evaluation& e, const Sheet& sheet) {
-  const int first = lowest_course(e.assembly, sheet), end = e.assembly.stack_of(sheet.first_ring).second;
-  const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
-  return std::ranges::any_of(e.last.joints.wrenches, [&](const JointWrench& joint) {
-    const int bearer = bearer_of_thrust(e.assembly, sheet, joint, joint.centroid, joint.patch.plane.normal);
-    if (bearer < 0 || !e.assembly.blocks[bearer].fixed) return false;
-    const Block& pushing = e.assembly.blocks[bearer == joint.block_a ? joint.block_b : joint.block_a];
-    return pushing.ring > first && !(arch && pushing.ring + pushing.num_rings == end);
-  });
+bool is_held_higher(const std::vector<Thrust>& thrusts) {
+  return std::ranges::any_of(thrusts, &Thrust::held_higher);
 }
 
 std::string at_level(const std::string& name, const RingSum& cut) {
@@ -128,12 +118,12 @@ std::string at_level(const std::string& name, const RingSum& cut) {
 /// "at the springing, z = 0 m", or "at the base, z = -4.5 m; at the springing, z = 0 m, 21.3 kN". The courses
 /// of an arch are counted from one side: where the sides differ, the other value is not known. Nor is it where
 /// supports hold higher courses, whose push is none of the sum over one course.
-std::string level_text(const Evaluation& e, const Sheet& sheet, bool differ) {
+std::string level_text(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
   const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
-  const bool held_higher = is_held_higher(e, sheet);
+  const bool held_higher = is_held_higher(thrusts);
   const std::string at_base =
       at_level(springing == &base ? "springing" : "base", base) + (held_higher ? kAndHigher : "");
-  if (!springing || springing == &base || differ || held_higher) return at_base;
+  if (!springing || springing == &base || differ(thrusts) || held_higher) return at_base;
   return fmt::format("{}; {}, {}", at_base, at_level("springing", *springing),
                      force_text(springing->radial_thrust));
 }
@@ -162,37 +152,52 @@ std::string pull_of_rings(const Geometry& geometry, double tension) {
                             members.size() > 1 ? fmt::format("{}", fmt::join(bonded, " and ")) : "");
 }
 
+/// That which a range counts: of an arch at the springing towards +x.
+Thrust counted_by_range(const Evaluation& e, const Sheet& sheet) {
+  std::vector<Thrust> thrusts = thrusts_of(e, sheet);
+  const bool second = thrusts.size() > 1 && thrusts[1].towards->dot(sheet.towards(0.0)) > 0.0;
+  return std::move(thrusts[second ? 1 : 0]);
+}
+
+std::string least_to_greatest(const ForceRange& range) {
+  return fmt::format("{} to {}{}", end_text(range.min, least(range), range),
+                     end_text(range.max, greatest(range), range), range_unit(range).after_blank());
+}
+
+/// "14 kN/m to 16 kN/m over 5 m of support; at the base, z = 0 m", of the stack whose thrust the range is.
+std::string place_of_range(const Evaluation& e, const Sheet& sheet, const ForceRange& range) {
+  const Thrust counted = counted_by_range(e, sheet);
+  const double length = length_of(e, sheet, counted);
+  std::string text;
+  const bool is_none = least(range) == 0.0 && greatest(range) == 0.0;
+  const bool is_shared = counted.on_blocks && !counted.supports.empty();  // in parts that it does not know
+  if (length > 0.0 && !is_none && !is_shared && std::isfinite(least(range)) && std::isfinite(greatest(range)))
+    text = fmt::format("{}/m to {}/m over {} of support; ", force_text(least(range) / length),
+                       force_text(greatest(range) / length), length_text(length));
+  const RingSum& base = base_of(e, sheet);
+  std::string level = springing_of(e, sheet) == &base ? "springing" : "base";
+  if (counted.towards) level += " towards " + direction_text(*counted.towards);
+  return text + at_level(level, base) + (counted.held_higher ? kAndHigher : "");
+}
+
 KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
-  const std::string unit = range_unit(range).after_blank();
   std::string detail = "certain for every history";
   if (range.chosen)
-    detail +=
-        fmt::format("; the stiffness of the joints selects {}{}", range_number(*range.chosen, range), unit);
-  const std::vector<const Sheet*> pushing = pushing_sheets(e);
-  Thrust side;  // that the range counts
-  if (!pushing.empty() && pushing.front()->thrust_lines == Sheet::ThrustLines::one)
-    side.towards = pushing.front()->towards(0.0);
-  const double length = pushing.empty() || is_held_higher(e, *pushing.front())
-                            ? 0.0
-                            : length_of(e, *pushing.front(), thrusting(e, *pushing.front(), side));
-  if (length > 0.0 && std::isfinite(least(range)) && std::isfinite(greatest(range)))
-    detail += fmt::format("; {}/m to {}/m over {} of support", force_text(least(range) / length),
-                          force_text(greatest(range) / length), length_text(length));
-  if (!pushing.empty() && !e.rings.empty()) {
-    const RingSum& base = base_of(e, *pushing.front());
-    std::string level = springing_of(e, *pushing.front()) == &base ? "springing" : "base";
-    if (side.towards) level += " towards " + direction_text(*side.towards);
-    detail += "; " + at_level(level, base) + (is_held_higher(e, *pushing.front()) ? kAndHigher : "");
-  }
+    detail += fmt::format("; the stiffness of the joints selects {}{}", range_number(*range.chosen, range),
+                          range_unit(range).after_blank());
+  const std::vector<const Sheet*> of_model = pushing_sheets(e.assembly), standing = pushing_sheets(e);
+  if (of_model.size() > 1) detail += "; of " + of_model.front()->name;
+  if (!standing.empty() && standing.front() == of_model.front() && !e.rings.empty())
+    detail += "; " + place_of_range(e, *standing.front(), range);
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
     if (const auto tension = net_hoop_tension(e, least(range)))
       detail += pull_of_rings(e.scene.geometry, *tension);
   }
-  return {"Outward thrust",
-          fmt::format("{} to {}{}", end_text(range.min, least(range), range),
-                      end_text(range.max, greatest(range), range), unit),
-          detail};
+  for (const ForceRange& other : e.summary.ranges)
+    if (other.quantity.starts_with("thrust of "))
+      detail += fmt::format("; {} {}", other.quantity.substr(7), least_to_greatest(other));
+  return {"Outward thrust", least_to_greatest(range), detail};
 }
 
 /// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
@@ -205,13 +210,13 @@ std::string spread_over(const std::vector<Reaction>& supports) {
                      lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
 }
 
-/// The thrust per metre of support; "" where the supports of the first course do not bear it alone.
+/// What supports bear of the thrust per metre; "" where those of other courses bear it, too.
 std::string along_supports(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
-  if (is_held_higher(e, sheet)) return "";
-  const auto length = [&](const Thrust& thrust) { return length_of(e, sheet, thrusting(e, sheet, thrust)); };
-  const auto per_length = [&](const Thrust& thrust) { return thrust.force / length(thrust); };
+  if (is_held_higher(thrusts)) return "";
+  const auto length = [&](const Thrust& thrust) { return length_of(e, sheet, thrust); };
+  const auto per_length = [&](const Thrust& thrust) { return on_supports(thrust) / length(thrust); };
   const Thrust& most = *std::ranges::max_element(thrusts, {}, per_length);
-  const std::string along = per_metre(most.force, length(most));
+  const std::string along = per_metre(on_supports(most), length(most));
   if (along.empty() || thrusts.size() == 1) return along;
   const bool is_even = !differ(thrusts) && alike(length(thrusts.front()), length(thrusts.back()));
   return (is_even ? "on each side, " : "at most ") + along;
@@ -267,7 +272,6 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   const Sheet& shell = *pushing.front();
   const bool alone = pushing.size() == 1 && e.summary.parts.empty();  // of which others may have fallen
   const std::vector<Thrust> thrusts = thrusts_of(e, shell);
-  const std::vector<Reaction> supports = thrusting(e, shell, thrusts.front());
   std::vector<std::string> details;
   const auto add = [&details](std::string text) {
     if (!text.empty()) details.push_back(std::move(text));
@@ -278,8 +282,8 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (!alone) along = fmt::format("of {}{}{}", shell.name, along.empty() ? "" : ", ", along);
   add(sides_text(thrusts));
   add(std::move(along));
-  add(level_text(e, shell, differ(thrusts)));
-  add(spread_over(supports));
+  add(level_text(e, shell, thrusts));
+  if (!thrusts.front().on_blocks) add(spread_over(thrusts.front().supports));
   if (alone) add(share_of_weight(e, thrusts.front().force));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(doubt_of(e));

@@ -6,7 +6,8 @@
 #include "assembly/model/block_names.hpp"
 
 namespace cupola {
-JointGeometry::JointGeometry(const Assembly& assembly, const ContactSet& contacts) : assembly_(assembly) {
+JointGeometry::JointGeometry(const Assembly& assembly, const ContactSet& contacts)
+    : assembly_(assembly), thrust_(assembly) {
   std::map<std::pair<int, int>, double> areas;
   for (const Patch& patch : contacts.patches) {
     const std::pair key{patch.block_a, patch.block_b};
@@ -58,6 +59,11 @@ Vec3 JointGeometry::outward(const Vec3& point, int block) const {
       "analysis.range.quantities: {} no axis, so that `thrust` and `outward` are not defined; give "
       "a reaction or joint a `direction`",
       imported ? "give geometry.import.axis: these imported blocks have" : "a wall has"));
+}
+
+Vec3 JointGeometry::outward_on_support(const Vec3& point, int block) const {
+  outward(point, block);  // refuses blocks without an axis
+  return thrust_.outward(assembly_.blocks[block].ring, point);
 }
 
 }  // namespace cupola

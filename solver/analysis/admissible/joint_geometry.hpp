@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "assembly/model/assembly.hpp"
+#include "assembly/model/thrust_joint.hpp"
 #include "solver/collision/contact_set.hpp"
 
 namespace cupola {
@@ -28,9 +28,13 @@ class JointGeometry {
   /// Horizontal unit vector away from the axis of the vault, or from the middle of the arch, to which a free
   /// block belongs or which stands on its wall. Throws InputError for blocks without such an axis.
   Vec3 outward(const Vec3& point, int block) const;
+  /// The same where the block bears on a support, see ThrustJoints::outward.
+  Vec3 outward_on_support(const Vec3& point, int block) const;
+  const ThrustJoints& thrust() const { return thrust_; }
 
  private:
   const Assembly& assembly_;
+  ThrustJoints thrust_;
   Pairs pairs_;
 };
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
-#include "assembly/model/thrust_joint.hpp"
 #include "solver/analysis/admissible/base_blocks.hpp"
 
 namespace cupola {
@@ -42,6 +41,8 @@ class Objectives {
   /// Adds the forces along `direction` on supports of ties that lead from them to free blocks, at either end
   /// of which is `block`. Restraints are forces of the ground.
   void add_anchored(int block, const Vec3& direction, ForceFunctional* f) const;
+  /// N, of the stack of a sheet, of an arch at the springing towards +x.
+  ForceFunctional thrust_of(const Sheet& sheet) const;
   ForceFunctional weight_of(const std::set<int>& blocks, double factor) const;
   /// Ties without those of the restraints, which follow them: a tie and a strut each.
   int num_ties() const { return static_cast<int>(scene_.model.ties.size()) - 2 * num_restraints(); }
@@ -112,23 +113,28 @@ ForceFunctional Objectives::bar(int strut, double sign) const {
   return f;
 }
 
-/// Of the last stack that has an axis, in a model of several: on its supports and on what carries it.
-std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
-  const Assembly& assembly = scene_.assembly;
-  const Sheet* vault = assembly.vault_of(-1);
-  const Sheet last = vault ? *vault : Sheet{};
-  const bool is_arch = last.thrust_lines == Sheet::ThrustLines::one;
+ForceFunctional Objectives::thrust_of(const Sheet& sheet) const {
+  const ThrustJoints& thrust = scene_.joints.thrust();
   ForceFunctional f = scene_.zero();
   for (const auto& [key, pair] : scene_.joints.pairs()) {
     const JointKind kind = scene_.contacts.patches[scene_.contacts.points[pair.contacts.front()].patch].kind;
-    const int bearer =
-        bearer_of_thrust(assembly, last, {key.first, key.second, kind, 0}, pair.centroid, pair.normal);
-    if (bearer < 0) continue;
-    const Vec3 outward = scene_.joints.outward(pair.centroid, bearer == key.first ? key.second : key.first);
-    const bool other_springing = is_arch && outward.dot(last.towards(0.0)) < 0.0;
-    if (!other_springing) scene_.add(pair, bearer, outward, &f);
+    const int bearer = thrust.bearer(sheet, {key.first, key.second, kind, 0}, pair.centroid, pair.normal);
+    if (bearer < 0 || thrust.is_at_far_side(sheet, pair.centroid)) continue;
+    const int pushing = bearer == key.first ? key.second : key.first;
+    scene_.add(pair, bearer, scene_.joints.outward_on_support(pair.centroid, pushing), &f);
   }
-  return {{"thrust", "N", std::move(f), {}, {}}};
+  return f;
+}
+
+/// Of each stack that has an axis, on its supports and on what carries it, the last first.
+std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
+  const std::vector<const Sheet*> pushing = pushing_sheets(scene_.assembly);
+  if (pushing.empty()) return {{"thrust", "N", thrust_of({}), {}, {}}};  // which refuses it
+  std::vector<RangeObjective> objectives;
+  for (const Sheet* sheet : pushing)
+    objectives.push_back(
+        {objectives.empty() ? "thrust" : "thrust of " + sheet->name, "N", thrust_of(*sheet), {}, {}});
+  return objectives;
 }
 
 std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction) const {
@@ -137,7 +143,7 @@ std::vector<RangeObjective> Objectives::operator()(const BlockReaction& reaction
   const Vec3 unit = reaction.direction ? reaction.direction->normalized() : kDown;
   const bool outward = !reaction.direction && !vertical;
   const auto direction = [&](const Vec3& point, int block) {
-    return outward ? scene_.joints.outward(point, block) : unit;
+    return outward ? scene_.joints.outward_on_support(point, block) : unit;
   };
   if (!scene_.fixed(reaction.block)) base_blocks({BaseBlocks::Group::listed, {reaction.block}});
   ForceFunctional f = on_supports({reaction.block}, direction);

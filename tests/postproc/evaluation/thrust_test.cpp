@@ -167,6 +167,24 @@ TEST(Thrust, CountsSupportsOfEveryCourse) {
       << thrust_answer(e)->detail;
 }
 
+// A rib stands on one of the two supports of its vault. Those of the vault are both, of its joints alone.
+TEST(Thrust, OfASharedSupportIsThatOfEachMember) {
+  Evaluation e;
+  for (const int ring : {-1, -1, 0, 1}) e.assembly.blocks.push_back(in_course(ring));
+  e.assembly.num_rings = 2;
+  using enum Sheet::ThrustLines;
+  e.assembly.sheets = {{.name = "rib", .num_rings = 1, .thrust_lines = by_azimuth},
+                       {.name = "vault", .first_ring = 1, .num_rings = 1, .thrust_lines = by_azimuth}};
+  e.last.joints.wrenches = {pushing(0, 2, 3.0, 2.0), pushing(0, 3, 3.0, 5.0), pushing(1, 3, 3.0, 6.0)};
+  const std::vector<Thrust> thrusts = thrusts_of(e, e.assembly.sheets.back());
+  ASSERT_EQ(thrusts.size(), 1u);
+  EXPECT_EQ(thrusts[0].force, 11.0);
+  ASSERT_EQ(thrusts[0].supports.size(), 2u);
+  EXPECT_EQ(thrusts[0].supports[0].outward, 5.0);
+  EXPECT_EQ(thrusts[0].supports[1].outward, 6.0);
+  EXPECT_EQ(thrusts_of(e, e.assembly.sheets.front()).at(0).supports.size(), 1u);
+}
+
 // Cuts have left no stone of the first course of a sail vault, as its springing lies outside its walls.
 TEST(Thrust, IsThatOfTheLowestCourseThatWasBuilt) {
   Evaluation e;
