@@ -6,8 +6,8 @@
 namespace cupola::drawn_arch_test {
 namespace {
 
-// Stones that reach from course 8 to the far springing: at bed 9, inside them, the line forgot the force of the
-// support, 42.3 kN instead of 107.2. Tolerance: the solver's is 1e-8 of a block's weight.
+// Stones that reach from course 8 to the far springing: at bed 9, inside them, the line forgot the force of
+// the support, 42.3 kN instead of 107.2. Tolerance: the solver's is 1e-8 of a block's weight.
 TEST(DrawnArch, PushesOnTheFarSpringingAsOnTheNearOne) {
   const ProgramFolder folder;
   std::ofstream(folder.file("case.yaml")) << R"(
