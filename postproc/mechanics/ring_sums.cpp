@@ -88,32 +88,30 @@ void add_joint_forces(const Assembly& assembly, const JointWrenches& joints, con
 }
 
 /// Sums what blocks push outwards across the cuts of their stack on blocks below, whichever way their joints
-/// face: blocks of several courses pass the cuts above their first. And on supports beside them.
+/// face: blocks of several courses pass the cuts above their first.
 void add_outward_between_rings(const Assembly& assembly, const JointWrenches& joints,
                                std::vector<RingSum>* rings) {
   for (const JointWrench& joint : joints.wrenches) {
     const int a = ring_above_support(assembly.blocks[joint.block_a]),
               b = ring_above_support(assembly.blocks[joint.block_b]);
     const auto [lower, upper] = std::minmax(a, b);
-    const bool beside = upper >= 0 && joint.kind == JointKind::base && joint.upper < 0;
-    if (!beside && lower < assembly.stack_of(std::max(upper, 0)).first)
-      continue;  // a support, or another stack
+    if (lower < assembly.stack_of(std::max(upper, 0)).first) continue;  // a support, or another stack
     const Vec3 on_upper = wrench_on(joint, b > a ? joint.block_b : joint.block_a).force;
-    for (int k = beside ? upper : lower + 1; k <= upper; ++k)
+    for (int k = lower + 1; k <= upper; ++k)
       (*rings)[k].radial_thrust -= assembly.outward(k, joint.centroid).dot(on_upper);
   }
 }
 
-/// The block of the first course of a stack that stands on another stack by this joint, whichever way the
-/// joint faces: a springer of a groin vault also leans on its pier.
-std::optional<int> on_other_stack(const Assembly& assembly, const JointWrench& joint) {
+/// The block that leans on a support beside it by this joint, or of the first course of a stack stands on
+/// another stack, whichever way the joint faces: a springer of a groin vault also leans on its pier.
+std::optional<int> leaning_block(const Assembly& assembly, const JointWrench& joint) {
   const auto ring = [&](int block) { return ring_above_support(assembly.blocks[block]); };
   const auto [lower, upper] = ring(joint.block_a) < ring(joint.block_b)
                                   ? std::pair(joint.block_a, joint.block_b)
                                   : std::pair(joint.block_b, joint.block_a);
-  const bool stands =
-      ring(lower) >= 0 && ring(lower) < ring(upper) && assembly.stack_of(ring(upper)).first == ring(upper);
-  return stands ? std::optional(upper) : std::nullopt;
+  if (ring(lower) == ring(upper)) return std::nullopt;
+  const bool leans = ring(lower) < 0 ? joint.upper < 0 : assembly.stack_of(ring(upper)).first == ring(upper);
+  return leans ? std::optional(upper) : std::nullopt;
 }
 
 /// True for the upright face of a support, as of a wall that holds the end of a course: it is not its bed.
@@ -131,9 +129,9 @@ void add_uniformity(const Assembly& assembly, const JointWrenches& joints,
   std::vector<char> is_carried(from_below.size(), 0);
   const ThrustJoints thrust(assembly);
   for (const JointWrench& joint : joints.wrenches) {
-    if (const auto springer = on_other_stack(assembly, joint); springer && joint.carried < 0) {
-      const int k = ring_above_support(assembly.blocks[*springer]);
-      (*rings)[k].radial_thrust -= thrust.outward(k, joint.centroid).dot(wrench_on(joint, *springer).force);
+    if (const auto leaning = leaning_block(assembly, joint); leaning && joint.carried < 0) {
+      const int k = ring_above_support(assembly.blocks[*leaning]);
+      (*rings)[k].radial_thrust -= thrust.outward(k, joint.centroid).dot(wrench_on(joint, *leaning).force);
       leaning_moment[k] += joint.area * joint.patch.centroid.z();
       leaning_area[k] += joint.area;
     }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "postproc/mechanics/ring_sums.hpp"
 #include "tests/postproc/models.hpp"
 
 namespace cupola::joint_wrenches_test {
@@ -28,6 +29,23 @@ TEST(JointWrenches, ASupportBesideAStoneIsNeitherAboveNorBelow) {
     EXPECT_EQ(joint.lower, -1) << slope;
     EXPECT_EQ(joint.carried, -1) << slope;
   }
+}
+
+TEST(RingSums, CountTheThrustOnASupportBesideAStone) {
+  Assembly a = test::column(1);
+  a.sheets.front().thrust_lines = Sheet::ThrustLines::by_azimuth;
+  ContactTable c = test::column_at_rest(a, 9.81, 0.0, 0.6, 0.4).contacts;
+  for (int i = 0; i < c.size(); ++i) {
+    c.normal[i] = -Vec3::UnitX();  // at x > 0, from the support to the stone
+    c.force[i] = {-10.0, 0.0, 0.0};
+    c.point[i] = {1.2, 0.0, 0.1 * i};
+  }
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  const JointWrenches joints = joint_wrenches(a, c, shell);
+  ASSERT_EQ(joints.wrenches.front().upper, -1);
+  const std::vector<RingSum> rings =
+      ring_sums(a, shell, joints, wrenches_from_below(a, joints), {0.0, 0.0, -9.81}, {});
+  EXPECT_DOUBLE_EQ(rings.front().radial_thrust, 40.0);
 }
 
 // Beds of a vault cut on one side may lean any way.
