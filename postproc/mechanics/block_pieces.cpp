@@ -9,8 +9,8 @@ namespace cupola {
 namespace {
 
 std::span<const Part> parts_of(const Assembly& assembly, int block) {
-  const auto own = std::ranges::equal_range(assembly.parts, block, {}, &Part::block);
-  return {own.begin(), own.end()};
+  return {std::ranges::lower_bound(assembly.parts, block, {}, &Part::block),
+          std::ranges::upper_bound(assembly.parts, block, {}, &Part::block)};
 }
 
 /// m, by which a point lies outside of a convex part.

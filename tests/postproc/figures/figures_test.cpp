@@ -49,12 +49,12 @@ TEST(BedResultants, UprightBlockOfAWallCountsWithTheWrenchAtItsFoot) {
   Frame frame = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4);
   const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
                                        test::fresh_folder("results"));
-  ASSERT_EQ(e.sections[0].resultants.size(), 2u) << "the block on the bed and the upright through it";
+  ASSERT_EQ(e.sections[0].resultants.size(), 1u) << "the block on the upright lies above the bed with it";
   EXPECT_EQ(e.sections[0].resultants[0].block, 2);
   EXPECT_NEAR(e.sections[0].resultants[0].wrench.force.z(), 2.0 * kBlockWeight, 1e-9 * kBlockWeight);
   EXPECT_NEAR(e.sections[0].resultants[0].point.z(), 0.5, 1e-12) << "at its foot";
   EXPECT_EQ(data_of(levels_figure(e), "upright").size(), 1u);
-  EXPECT_EQ(data_of(levels_figure(e), "flat").size(), 1u);
+  EXPECT_TRUE(data_of(levels_figure(e), "flat").empty());
 }
 
 // Two blocks, one of which carries nothing: grey, with a legend, and outside the colour scale.
