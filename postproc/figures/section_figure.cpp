@@ -87,7 +87,7 @@ Figure section_figure(const Evaluation& e, const SectionEvaluation& section) {
   const bool wall = !sheets.empty() && sheets.back().thrust_lines == Sheet::ThrustLines::none;
   const SectionForces forces = forces_of(e, section);
   Figure f;
-  f.name = fmt::format("section_{:g}m", section.height);
+  f.name = fmt::format("section_{}m", section.height);
   f.title = fmt::format("Section at z = {:g} m", section.height);
   f.caption = caption_of(e, section, forces);
   f.width = 1100;

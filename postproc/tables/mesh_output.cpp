@@ -86,6 +86,11 @@ Mesh& DisplacedBlocks::at(const FrameEvaluation& e) {
     parts.back().ring = part.ring;
   }
   mesh_.cell_data = mesh_arrays(block_columns(), parts, kBlockMeshKeys);
+  if (is_stage(e.frame.role)) {
+    MeshInts laid;
+    for (const BlockRow& part : parts) laid.push_back(part.laid ? 1 : 0);
+    mesh_.cell_data.push_back({"laid", 1, std::move(laid)});
+  }
   mesh_.field_data = {{"time_s", 1, MeshDoubles{e.frame.time}}};
   return mesh_;
 }

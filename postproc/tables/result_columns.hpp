@@ -24,6 +24,7 @@ struct BlockRow {
   int ring = 0;           ///< first ring of the block; ring of the part in meshes of parts
   int beside_spiral = 0;  ///< 1: laid flat, with a head joint to a herringbone block
   int mechanism_group = 0;
+  bool laid = true;  ///< false: a stage of a construction does not have it
 };
 std::vector<BlockRow> block_rows(const Evaluation& evaluation, const FrameEvaluation& frame);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "postproc/mechanics/stage_blocks.hpp"
 #include "postproc/tables/result_columns.hpp"
 
 namespace cupola {
@@ -24,6 +25,8 @@ std::vector<BlockRow> block_rows(const Evaluation& e, const FrameEvaluation& fra
   const double g = e.scene.loads.gravity.norm();
   const std::vector<int> beside = beside_spiral(e.assembly, frame.joints);
   const bool mechanism = is_mechanism(frame.frame.role);  // drawn with an amplitude that it does not have
+  std::vector<bool> laid(e.assembly.blocks.size(), true);
+  if (is_stage(frame.frame.role)) laid = laid_blocks(e.assembly, frame.frame);
   std::vector<BlockRow> rows;
   rows.reserve(e.assembly.blocks.size());
   for (size_t b = 0; b < e.assembly.blocks.size(); ++b) {
@@ -37,7 +40,8 @@ std::vector<BlockRow> block_rows(const Evaluation& e, const FrameEvaluation& fra
                     .index = static_cast<int>(b),
                     .ring = block.ring,
                     .beside_spiral = beside[b],
-                    .mechanism_group = frame.groups[b]});
+                    .mechanism_group = frame.groups[b],
+                    .laid = laid[b]});
   }
   return rows;
 }

@@ -20,7 +20,7 @@ Table with_block_names(const Assembly& assembly, Table table) {
   if (assembly.blocks.empty() || assembly.blocks.front().name.empty()) return table;
   for (size_t c = 0; c < table.columns.size(); ++c) {
     const std::string key = table.columns[c].key;
-    if (key != "block" && key != "block_a" && key != "block_b") continue;
+    if (key != "block" && key != "block_a" && key != "block_b" && key != "support") continue;
     const auto after = static_cast<std::ptrdiff_t>(c) + 1;
     table.columns.insert(table.columns.begin() + after, {key + "_name", "", "its name in the imported file"});
     for (auto& row : table.rows)
@@ -138,11 +138,11 @@ Table tie_table(const Evaluation& e) {
 }
 
 Table section_table(const Evaluation& e, const SectionEvaluation& section) {
-  Table table = make_table(fmt::format("section_{:g}m", section.height),
-                           fmt::format("Resultants of the blocks across the bed nearest to z = {:g} m ({})",
+  Table table = make_table(fmt::format("section_{}m", section.height),
+                           fmt::format("Resultants of the blocks across the bed nearest to z = {} m ({})",
                                        section.height, beds_text(e.shell, section, "ring")),
                            section_columns(), section.resultants);
-  return with_member_names(e.assembly, std::move(table));
+  return with_block_names(e.assembly, with_member_names(e.assembly, std::move(table)));
 }
 
 Table plane_table(const Evaluation& e, const PlaneCut& cut) {
@@ -159,7 +159,8 @@ void visit_tables(const Evaluation& e, const std::function<void(Table)>& take) {
   if (!e.summary.ranges.empty()) add(range_table(e.summary.ranges));
   if (!e.rings.empty()) add(ring_table(e));
   if (!e.reactions.empty())
-    add(make_table("reactions", "Forces on the supports", reaction_columns(), e.reactions));
+    add(with_block_names(e.assembly,
+                         make_table("reactions", "Forces on the supports", reaction_columns(), e.reactions)));
   if (!e.cracks.empty()) add(crack_table(e));
   if (const auto observed = crack_agreement(e)) add(observed_table(*observed));
   if (!e.members.empty()) add(member_table(e));
@@ -179,9 +180,12 @@ void visit_tables(const Evaluation& e, const std::function<void(Table)>& take) {
   for (const SectionEvaluation& section : e.sections) add(section_table(e, section));
   for (const PlaneCut& cut : e.planes) add(plane_table(e, cut));
   for (const ShellMap& map : shell_maps(e))
-    in_pieces(map.boxes, [&](auto boxes) { add(shell_table(map, boxes)); });
+    in_pieces(map.boxes, [&](auto boxes) { add(with_block_names(e.assembly, shell_table(map, boxes))); });
   in_pieces(e.last.joints.wrenches, [&](auto joints) { add(joint_table(e, joints)); });
-  in_pieces(block_rows(e, e.last), [&](auto blocks) { add(block_table(e, blocks)); });
+  std::vector<BlockRow> laid;
+  for (const BlockRow& row : block_rows(e, e.last))
+    if (row.laid) laid.push_back(row);
+  in_pieces(laid, [&](auto piece) { add(block_table(e, piece)); });
 }
 
 }  // namespace cupola
