@@ -70,6 +70,7 @@ void append_rows(const Quantity& quantity, const std::string& name, RunCache& ca
                                  counted(table.rows.size(), "row"), name, reference->rows.size(),
                                  quantity.reference));
   const size_t column = table.column(quantity.column);
+  for (const RowFilter& filter : quantity.where) table.column(filter.column);  // even if no row is read
   for (size_t row = 0; row < table.rows.size(); ++row) {
     if (!passes(table, row, quantity.where)) continue;
     double value = table.number(row, column);

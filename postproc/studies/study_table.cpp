@@ -78,7 +78,14 @@ std::string flaw_of(const StudyColumn& column, const std::string& run, RunCache&
   return flaw;
 }
 
-Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache& cache) {
+/// How the numbers of a column were found: tables of some analyses have columns that others lack, but a name
+/// that none has is misspelt.
+struct Lookups {
+  int found = 0;
+  std::optional<UnknownColumn> unknown;
+};
+
+Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache& cache, Lookups* lookups) {
   if (column.text) {
     if (*column.text == RunText::run) return run.substr(run.rfind('/') + 1);
     if (!cache.finished(run)) return std::string("not run");
@@ -88,11 +95,15 @@ Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache&
   if (const std::string flaw = flaw_of(column, run, cache); !flaw.empty()) return flaw;
   if (!column.absent) return number_of(column, run, cache);
   try {
-    return number_of(column, run, cache);
+    const double number = number_of(column, run, cache);
+    ++lookups->found;
+    return number;
+  } catch (const UnknownColumn& error) {
+    lookups->unknown = error;
   } catch (const InputError&) {  // the run has no such number
-    const std::string name = of_row(column.value, run).runs.front();
-    return filled(*column.absent, "{reason}", reason_of(cache.run(name).message()));
   }
+  const std::string name = of_row(column.value, run).runs.front();
+  return filled(*column.absent, "{reason}", reason_of(cache.run(name).message()));
 }
 
 /// A cell of a CSV file: a number if it is one.
@@ -160,10 +171,13 @@ Table measured_table(const StudyTable& table, RunCache& cache) {
     }
     return out;
   }
-  for (size_t i = 0; i < table.runs.size(); ++i) {
-    std::vector<Table::Cell>& cells = out.rows.emplace_back();
-    for (const StudyColumn& column : table.columns)
-      cells.push_back(column.texts.empty() ? cell_of(column, table.runs[i], cache) : column.texts[i]);
+  out.rows.resize(table.runs.size());
+  for (const StudyColumn& column : table.columns) {
+    Lookups lookups;
+    for (size_t i = 0; i < table.runs.size(); ++i)
+      out.rows[i].push_back(column.texts.empty() ? cell_of(column, table.runs[i], cache, &lookups)
+                                                 : column.texts[i]);
+    if (lookups.unknown && lookups.found == 0) throw UnknownColumn(*lookups.unknown);
   }
   return out;
 }

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
-#include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/csv_text.hpp"
 
@@ -45,7 +44,7 @@ size_t CsvFile::column(const std::string& name) const {
   const auto found = std::find(columns.begin(), columns.end(), name);
   if (found != columns.end()) return static_cast<size_t>(found - columns.begin());
   const std::string near = nearest_name(name, columns);
-  throw InputError(
+  throw UnknownColumn(
       FileLocation{path},
       fmt::format("has no column {}{}", name, near.empty() ? "" : fmt::format(", did you mean {}?", near)));
 }

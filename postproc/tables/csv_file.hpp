@@ -3,7 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
+
+/// A table lacks a column.
+struct UnknownColumn : InputError {
+  using InputError::InputError;
+};
 
 /// A CSV file with every cell as text.
 struct CsvFile {
@@ -11,7 +18,7 @@ struct CsvFile {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 
-  /// Index of a column; InputError with the nearest name if there is none.
+  /// Index of a column; UnknownColumn with the nearest name if there is none.
   size_t column(const std::string& name) const;
   /// NaN if the cell is empty; InputError if it is not a number.
   double number(size_t row, size_t column) const;

@@ -1,6 +1,8 @@
 // Tables of studies on handwritten runs, and their places in pages.
 #include "postproc/studies/study.hpp"
 
+#include <filesystem>
+
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
@@ -81,6 +83,27 @@ TEST(StudyTable, SaysWhichRunsAreMissingOrUnconverged) {
   EXPECT_EQ(
       shown(scratch, keys),
       "| run | how | x |\n|---|---|---|\n| a | unconverged | unconverged |\n| b | not run | not run |\n");
+}
+
+// Tables of some runs lack a column, or all of it; a name that none has is misspelt, in `column` or `where`.
+TEST(StudyTable, ColumnsThatNoRunHasAreNotAbsent) {
+  const ScratchFolder scratch;
+  for (const char* run : {"a", "b", "c"}) write_run(scratch, run, "stable", 1);
+  scratch.write("a/post/chains.csv", "chain,force_N,use\nlow,1500,0.5\n");
+  std::filesystem::remove(scratch.file("c/post/chains.csv"));
+  const auto cells = [&](const std::string& column) {
+    return shown(scratch, "    runs: a b c\n    columns:\n      - {heading: x, table: chains, column: " +
+                              column + ", take: first, absent: '-'}\n");
+  };
+  EXPECT_EQ(cells("use"), "| x |\n|---|\n| 0.5 |\n| - |\n| - |\n");
+  for (const char* column : {"force", "force_N, where: [{column: chain, is: none}, {column: force, to: 0}]"})
+    try {
+      ADD_FAILURE() << cells(column);
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("has no column force, did you mean force_N?"),
+                std::string::npos)
+          << error.what();
+    }
 }
 
 TEST(StudyTable, NamesTheKeyThatWasProbablyMeant) {
