@@ -149,6 +149,20 @@ Bracket LimitRun::search_value() {
                 });
 }
 
+/// By how much the support that moves most does between two factors of `spread`, turns included, m.
+double largest_move(const Model& model, double low, double high) {
+  const std::vector<Block>& blocks = model.assembly->blocks;
+  std::vector<Pose> from = state_at_rest(model).poses, to = from;
+  place_supports(*model.assembly, model.support_motions, low, &from);
+  place_supports(*model.assembly, model.support_motions, high, &to);
+  double moved = 0.0;
+  for (size_t i = 0; i < blocks.size(); ++i) {
+    const double turned = from[i].q_WB.angularDistance(to[i].q_WB) * std::cbrt(blocks[i].volume);
+    moved = std::max(moved, (to[i].p_WB - from[i].p_WB).norm() + turned);
+  }
+  return moved;
+}
+
 /// The longest step of the factor of `spread`. Where joints slide, the state at a factor depends on the steps
 /// before it. The size of the blocks therefore limits them, and not only the bracket, which the user may
 /// widen.
@@ -157,28 +171,24 @@ double longest_step(const Model& model, double low, double high) {
   // Chosen: with 0.01 the limits of an arch and of a flying buttress are within 0.4 % of those of finer paths,
   // with 0.02 within 1 %.
   constexpr double kShare = 0.01;  // of the smallest block, by which supports move in a step
-  const std::vector<Block>& blocks = model.assembly->blocks;
   const double step = (high - low) / kFewest;
-  std::vector<Pose> from = state_at_rest(model).poses, to = from;
-  place_supports(*model.assembly, model.support_motions, low, &from);
-  place_supports(*model.assembly, model.support_motions, low + step, &to);
-  double moved = 0.0;
-  for (size_t i = 0; i < blocks.size(); ++i) {
-    const double turned = from[i].q_WB.angularDistance(to[i].q_WB) * std::cbrt(blocks[i].volume);
-    moved = std::max(moved, (to[i].p_WB - from[i].p_WB).norm() + turned);
-  }
-  return step * std::min(1.0, kShare * smallest_block_size(*model.assembly) / moved);
+  return step *
+         std::min(1.0, kShare * smallest_block_size(*model.assembly) / largest_move(model, low, low + step));
 }
 
 Bracket LimitRun::follow_spread() {
   const LimitSearch& limit = scene.analysis.limit;
   const Model model = make_model(case_at(scene, 0.0), assembly);
   EquilibriumPath path(model, detection_options(scene), options, PathGeometry::end);
-  return follow(
+  Bracket bracket = follow(
       &path, {limit.low, limit.high, longest_step(model, limit.low, limit.high)},
       bracket_width(scene.analysis), [&](const LimitTrial& trial, const StaticSolution& solution) {
         return keep(trial.value, {{}, model, path.start(), path.contacts(), path.memories(), solution});
       });
+  if (bracket.at_both_ends && largest_move(model, limit.low, limit.high) == 0.0)
+    bracket.message =
+        "the structure stands, and no support moves: give the motion that it multiplies, supports.moves";
+  return bracket;
 }
 
 /// Summarises the last equilibrium or, without one, what moves or is undecided, and writes two frames: that
