@@ -131,7 +131,7 @@ TEST(Path, PointsThatAreClosingCarryNothing) {
 
 TEST(PathRow, ForcesOfRoundingCloseNoGap) {
   ContactTable contacts;
-  contacts.block_a = contacts.block_b = {0, 0, 0};
+  contacts.joint = {0, 0, 0};
   contacts.gap = {1e-3, 2e-3, 3e-3};
   contacts.normal_force = {0.0, 1e-19, 1e4};
   EXPECT_EQ(widest_gap(contacts), 2e-3);
