@@ -95,12 +95,31 @@ std::vector<std::string> unused_times(const Case& scene) {
   return out;
 }
 
+namespace {
+
+/// A path of a given length ends there, whatever the time. Two steps in a pulse find it, at the least: one
+/// may meet a wave whenever it is zero.
+std::vector<std::string> missed_by_path(const Case& scene) {
+  const LoadPath& path = scene.analysis.path;
+  if (path.length) return {};
+  const std::vector<KeyedTime> times = times_of(scene);
+  std::vector<std::string> out = cut_off(times, "analysis.path.end", path.end);
+  for (const KeyedTime& time : times)
+    if (const double pulse = shortest_pulse(time.function);
+        2.0 * path.end > (1.0 + kSameTime) * pulse * path.steps)
+      out.push_back(
+          fmt::format("analysis.path.steps = {}: steps of {:g} s exceed half a pulse of {}, {:.2g} s, which "
+                      "they may leave out; give {:.0f} or more",
+                      path.steps, path.end / path.steps, time.key, pulse,
+                      std::ceil((1.0 - kSameTime) * 2.0 * path.end / pulse)));
+  return out;
+}
+
+}  // namespace
+
 std::vector<std::string> missed_changes(const Case& scene) {
   const Analysis& analysis = scene.analysis;
-  // A path of a given length ends there, whatever the time.
-  if (analysis.type == AnalysisType::path)
-    return analysis.path.length ? std::vector<std::string>{}
-                                : cut_off(times_of(scene), "analysis.path.end", analysis.path.end);
+  if (analysis.type == AnalysisType::path) return missed_by_path(scene);
   if (analysis.type != AnalysisType::dynamic) return {};
   const std::vector<KeyedTime> times = times_of(scene);
   std::vector<std::string> out = cut_off(times, "analysis.duration", analysis.duration);

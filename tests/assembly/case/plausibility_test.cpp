@@ -232,6 +232,21 @@ TEST(MissedChanges, OfPulsesShorterThanAStep) {
   EXPECT_TRUE(warnings("[0, 1, 1, 0.99]", "").empty()) << "noise";
 }
 
+// A path meets a wave of 1 Hz in each of ten or twenty steps when it is zero.
+TEST(MissedChanges, OfPulsesWithLessThanTwoStepsOfAPath) {
+  const auto warnings = [](const std::string& path) {
+    return read_case(bundled_folder() + "/arch.yaml",
+                     {"loads.dead_load_time={type: harmonic, phase_deg: 90}",
+                      "analysis={type: path, path: {end: 10, " + path + "}}"})
+        .warnings;
+  };
+  EXPECT_EQ(
+      warnings("steps: 20"),
+      std::vector<std::string>{"analysis.path.steps = 20: steps of 0.5 s exceed half a pulse of "
+                               "loads.dead_load_time, 0.5 s, which they may leave out; give 40 or more"});
+  EXPECT_TRUE(warnings("steps: 40").empty());
+}
+
 // All analyses but motions and paths take loads, supports and friction as they are at the time 0.
 TEST(UnusedTimes, AreNamedWithTheirFactor) {
   const auto warnings = [](const std::vector<std::string>& options) {
