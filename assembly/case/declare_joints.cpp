@@ -11,6 +11,15 @@ namespace {
 
 constexpr double kStandardGravity = 9.81;  // m/s2, as Material::density
 
+/// Of all times.
+double least_factor(const TimeFunction& function) {
+  double least = factor_at(function, 0.0);
+  for (double time = next_corner(function, 0.0); time <= seen_by(function);
+       time = next_corner(function, time))
+    least = std::min(least, factor_at(function, time));
+  return least;
+}
+
 /// How to choose, with the defaults.
 std::string advice_per() {
   const Compliance point = Compliance::default_per(Compliance::Per::point),
@@ -221,6 +230,8 @@ void declare_joints(Section& s, Joints& joints) {
   s.rule(!joints.field || joints.field->strength == 0.0 || joints.have_strength(), "field",
          "strength: has no effect on joints without tension, cohesion and compressive_strength");
   declare_time(s, "friction_time", joints.friction_time, "factor on every friction coefficient");
+  s.rule(least_factor(joints.friction_time) >= 0.0, "friction_time",
+         "must not fall below 0, as a harmonic does in half of its time; give a table");
   const char* key = strength.tension > 0.0        ? "tension"
                     : strength.cohesion > 0.0     ? "cohesion"
                     : strength != JointStrength{} ? "compressive_strength"

@@ -35,6 +35,19 @@ TEST(ReadMotion, ReadsJointLawsPerKindAndRing) {
   EXPECT_DOUBLE_EQ(factor_at(c.joints.friction_time, 1.0), 0.75);
 }
 
+TEST(ReadMotion, RefusesFrictionBelowZero) {
+  const ScratchFolder scratch;
+  const auto read = [&](const std::string& time) {
+    return read_case(scratch.write("a.yaml", std::string(kWall) +
+                                                 "joints: {compliance: {per: point}, friction_time: " + time +
+                                                 "}\nanalysis: {type: dynamic}\n"));
+  };
+  EXPECT_THROW(read("{type: harmonic}"), InputError);
+  EXPECT_THROW(read("{type: ramp, from: 1, to: -0.5}"), InputError);
+  EXPECT_THROW(read("{type: table, times: [0, 1, 2], values: [1, -0.1, 1]}"), InputError);
+  EXPECT_NO_THROW(read("{type: table, times: [0, 1, 2], values: [1, 0, 1]}"));
+}
+
 TEST(ReadMotion, ReadsLoadsTiesAndSupports) {
   const ScratchFolder scratch;
   scratch.write("shake.csv", "0 0\n1 2\n");
