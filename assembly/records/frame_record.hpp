@@ -14,7 +14,7 @@ void fields(Visitor&& visit, Is<ContactTable> auto& c) {
   visit("block_b", "", "second block", c.block_b);
   visit("kind", "", "0 bed (between rings), 1 head (within a ring), 2 base (at a support), 3 other, 4 wythe",
         c.kind);
-  visit("ring", "", "course of the upper part; 0 for a base joint", c.ring);
+  visit("ring", "", "course of the upper part, at a support that of the other block", c.ring);
   visit("normal", "", "unit normal from a to b (3)", c.normal);
   visit("gap_m", "m", "positive when apart", c.gap);
   visit("force_N", "N", "contact force on b (3)", c.force);

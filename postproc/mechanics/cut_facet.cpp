@@ -42,8 +42,10 @@ std::optional<BedFacet> facet_around(int block, std::span<const Vec3> corners, c
     box.extend(Eigen::Vector2d(along.dot(x - corners[0]), across.dot(x - corners[0])));
   const auto corner = [&](double a, double c) -> Vec3 { return corners[0] + a * along + c * across; };
   const Eigen::Vector2d low = box.min(), high = box.max();
-  return BedFacet{block, corner(low.x(), low.y()), corner(high.x(), low.y()), corner(low.x(), high.y()),
-                  corner(high.x(), high.y())};
+  BedFacet facet{block, corner(low.x(), low.y()), corner(high.x(), low.y()), corner(low.x(), high.y()),
+                 corner(high.x(), high.y())};
+  facet.around = true;
+  return facet;
 }
 
 void add_cut_facets(const Assembly& assembly, std::span<const BedFace> faces, std::vector<BedFacet>* bed) {

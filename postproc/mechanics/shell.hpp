@@ -14,6 +14,7 @@ struct BedFacet {
   Vec3 intrados_a, intrados_b, extrados_a, extrados_b;  ///< m
   bool internal = false;        ///< the bed runs through a block that spans several rings
   double from = 0.0, to = 1.0;  ///< shares of the thickness of the shell at the inner and the outer edge
+  bool around = false;          ///< a rectangle around a bed without an inner or an outer edge
 };
 
 /// The facets of one block on one bed, their range of azimuths and their mean plane.

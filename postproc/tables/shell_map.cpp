@@ -52,6 +52,13 @@ double along_wall(const Shell& shell, const Sheet& wall) {
   return angle < kRounding - 0.5 * std::numbers::pi ? angle + std::numbers::pi : angle;
 }
 
+/// True of a rectangle around a bed, and of the bed of a crown course, which is upright and spans other webs.
+bool hides_others(const BedFacet& f, const Vec3& along) {
+  constexpr double kUpright = 0.1;  // sine
+  const Vec3 normal = (f.intrados_b - f.intrados_a).cross(f.extrados_a - f.intrados_a).normalized();
+  return f.around || std::abs(normal.dot(along)) < kUpright;
+}
+
 /// Adds the blocks on the beds of the map's wythe. Of the forces of a bonder it has the part in the wythe:
 /// mean stress times the thickness of the wythe.
 void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
@@ -67,7 +74,8 @@ void add_boxes(const Evaluation& e, const Sheet& axis, ShellMap* out) {
   std::map<std::pair<int, int>, Extent> extents;  // (block, ring)
   for (int ring = out->first_ring; ring < out->num_rings; ++ring) {
     for (const BedFacet& f : e.shell.beds[ring]) {
-      if (!e.shell.wythes[f.block].contains(out->number)) continue;
+      if (hides_others(f, e.shell.direction(ring)) || !e.shell.wythes[f.block].contains(out->number))
+        continue;
       const double a = place(f.intrados_a);
       const double part =
           e.shell.wythes[f.block].count() == 1 ? 1.0 : share_of(e.shell, ring, out->number) / (f.to - f.from);
