@@ -56,8 +56,8 @@ double widest_gap(const ContactTable& contacts) {
   double widest = 0.0, largest = 0.0;
   for (const double force : contacts.normal_force) largest = std::max(largest, force);
   for (int i = 0; i < contacts.size(); ++i) {
-    if (contacts.normal_force[i] > kNegligibleShare * largest)
-      continue;  // an open point may press by rounding
+    // An open point may press by rounding.
+    if (contacts.normal_force[i] > kNegligibleShare * largest) continue;
     widest = std::max(widest, contacts.crack_opening.empty() ? contacts.gap[i] : contacts.crack_opening[i]);
   }
   return widest;

@@ -142,8 +142,7 @@ void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
 /// True if nothing presses, pulls or moves a structure that is as it was drawn. Its blocks then rest where
 /// they are: the slight overlaps of a drawing bear as soon as loads act, as in statics.
 bool EquilibriumPath::is_unloaded() const {
-  constexpr double kSlight =
-      1e-4;  // of the smallest block; more is meant, as by a key stone that is driven in
+  constexpr double kSlight = 1e-4;  // of the smallest block; a larger overlap is meant, as of a driven key
   if (last_displacement_.size() > 0 || options_.control || !model_.ties.empty() || !model_.heat.empty())
     return false;
   const double time = start_.time + options_.time_advance;
@@ -217,7 +216,7 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
     if (!at_end && solution.outcome != StaticOutcome::equilibrium && !solution.proven) solution = step();
   }
   if (solution.outcome == StaticOutcome::equilibrium) {
-    // What is at rest as drawn leads nowhere.
+    // Blocks that rest as drawn say nothing of the next step.
     if (last_displacement_.size() > 0 || !displacement.isZero(0.0)) last_displacement_ = displacement;
     last_step_ = length;
   } else {
