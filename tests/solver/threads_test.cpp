@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/base/error.hpp"
 #include "solver/runtime/ordered_sum.hpp"
 
 namespace cupola::threads_test {
@@ -85,6 +86,20 @@ TEST_F(Teams, WorkAgainAfterAnException) {
     share_range(kWork, 1000, [&](int first, int last) { count += last - first; });
     EXPECT_EQ(count, 1000);
   }
+}
+
+TEST(ShareLoop, RethrowsTheExceptionOfTheSmallestIndex) {
+  set_num_threads(3);
+  try {
+    share_loop(1e12, 100, [](int i) {
+      if (i % 10 == 7) throw InputError(std::to_string(i));
+    });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find('7'), std::string::npos);
+    EXPECT_EQ(std::string(error.what()).find("17"), std::string::npos);
+  }
+  set_num_threads(1);
 }
 
 }  // namespace

@@ -443,19 +443,5 @@ TEST(ContactDetector, GivesTheSameBitsWithAnyNumberOfThreads) {
   }
 }
 
-TEST(ShareLoop, RethrowsTheExceptionOfTheSmallestIndex) {
-  set_num_threads(3);
-  try {
-    share_loop(1e12, 100, [](int i) {
-      if (i % 10 == 7) throw InputError(std::to_string(i));
-    });
-    ADD_FAILURE() << "nothing was thrown";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find('7'), std::string::npos);
-    EXPECT_EQ(std::string(error.what()).find("17"), std::string::npos);
-  }
-  set_num_threads(1);
-}
-
 }  // namespace
 }  // namespace cupola::detector_test

@@ -1,0 +1,114 @@
+// Thrusts of arches and domes of which cuts have taken a part, and of several members, in tables and ranges.
+
+#include <fstream>
+#include <numbers>
+
+#include "assembly/case/case_reader.hpp"
+#include "postproc/evaluation/thrust.hpp"
+#include "postproc/report/answers.hpp"
+#include "tests/pipeline/static_run.hpp"
+#include "tests/verification/thrust.hpp"
+
+namespace cupola::thrust_of_stacks_test {
+namespace {
+
+Case read(const ProgramFolder& folder, const std::string& text) {
+  std::ofstream(folder.file("case.yaml")) << text;
+  return read_case(folder.file("case.yaml"));
+}
+
+ForceRange range_of_thrust(Case scene, const Assembly& assembly) {
+  scene.analysis.type = AnalysisType::range;
+  scene.analysis.range.quantities = {BaseThrust{}};
+  return run_range(scene, assembly, {}).value().ranges.at(0);
+}
+
+// Half an arch leans on a wall, which is its other springing: both bear the same thrust, whichever half it is
+// and wherever the wall stands. Walls at x >= 0 took the thrust of the springing away.
+TEST(ThrustOfStacks, AHalfArchPushesOnItsWallAsOnItsSpringing) {
+  std::vector<ForceRange> ranges;
+  for (const double side : {1.0, -1.0}) {
+    const ProgramFolder folder;
+    const Case scene =
+        read(folder,
+             fmt::format(
+                 "geometry:\n  surface: {{type: vault, plan: {{type: line, length: 0.6}}, profile: {{type: "
+                 "semicircle, span: 8}}, thickness: 0.6}}\n  bond: {{type: stack, rings: 11, "
+                 "blocks_per_ring: 1}}\n  cuts: [{{type: plane, point: [{}, 0, 0], normal: [{}, 0, 0], "
+                 "as: held}}]\njoints: {{friction: 0.7, compliance: {{per: area}}}}\n",
+                 0.2 * side, -side));
+    const Evaluation e = solve_and_evaluate(scene, folder);
+    ASSERT_TRUE(at_rest(e)) << e.summary.message;
+    const std::vector<Thrust> thrusts = thrusts_of(e, e.assembly.sheets.front());
+    ASSERT_EQ(thrusts.size(), 2u);
+    const double rounding = 1e-8 * e.summary.weight_N;  // the solver's tolerance
+    EXPECT_GT(thrusts[0].force, 0.1 * e.summary.weight_N);
+    EXPECT_NEAR(thrusts[0].force, thrusts[1].force, rounding);
+    for (const Reaction& r : e.reactions) EXPECT_NEAR(r.outward, thrusts[0].force, rounding);
+    EXPECT_TRUE(thrust_answer(e)->detail.starts_with("at most ")) << thrust_answer(e)->detail;
+    ranges.push_back(range_of_thrust(scene, e.assembly));
+    EXPECT_LE(ranges.back().min.value.value(), thrusts[0].force + rounding);
+    EXPECT_GE(ranges.back().max.value.value(), thrusts[0].force - rounding);
+  }
+  // The requested gap of a range, 1e-6 of its values, twice.
+  EXPECT_NEAR(ranges[0].min.value.value() / ranges[1].min.value.value(), 1.0, 1e-5);
+  EXPECT_NEAR(ranges[0].max.value.value() / ranges[1].max.value.value(), 1.0, 1e-5);
+}
+
+// Half a ring pulls with no force where it is cut off, and the wall there is no part of its bed.
+TEST(ThrustOfStacks, HalfADomeHasNoHoopTensionOfAWholeOne) {
+  for (const bool half : {false, true}) {
+    const ProgramFolder folder;
+    const Evaluation e = solve_and_evaluate(
+        read(folder,
+             fmt::format(
+                 "geometry:\n  surface: {{type: vault, plan: {{type: circle}}, profile: {{type: "
+                 "semicircle, span: 6}}, thickness: 0.9, eye: 0.3}}\n  bond: {{type: running, rings: "
+                 "6, blocks_per_ring: 12, slices_per_block: 2}}\n{}joints: {{friction: 0.7, "
+                 "compliance: {{per: area}}}}\n",
+                 half ? "  cuts: [{type: plane, point: [0, 0, 0], normal: [0, -1, 0], as: held}]\n" : "")),
+        folder);
+    ASSERT_TRUE(at_rest(e)) << e.summary.message;
+    EXPECT_EQ(net_hoop_tension(e, -2.0 * std::numbers::pi).has_value(), !half);
+    EXPECT_NEAR(e.rings.front().height, 0.0, 1e-9);  // m; the wall stands up to 3.9 m
+  }
+}
+
+// Two arches beside each other, of which each has its thrust, by its name.
+TEST(ThrustOfStacks, ARangeOfTheThrustIsThatOfEachStack) {
+  const ProgramFolder folder;
+  const auto arch = [](double span) {
+    return fmt::format(
+        "surface: {{type: arch, span: {}, radius_ratio: 0.6, thickness: 0.4, width: 1}}, bond: {{type: "
+        "stack, "
+        "rings: 10, blocks_per_ring: 1}}",
+        span);
+  };
+  const Case both =
+      read(folder,
+           fmt::format("geometry: {{members: [{{name: small, {}}}, {{name: large, at: {{origin: [9, 0, 0]}}, "
+                       "{}}}]}}\njoints: {{friction: 0.7, compliance: {{per: area}}}}\n",
+                       arch(4.0), arch(5.0)));
+  Case scene = both;
+  scene.analysis.type = AnalysisType::range;
+  scene.analysis.range.quantities = {BaseThrust{}};
+  Evaluation e = solve_and_evaluate(both, folder);
+  e.summary.ranges = run_range(scene, e.assembly, {}).value().ranges;
+  ASSERT_EQ(e.summary.ranges.size(), 2u);
+  EXPECT_EQ(e.summary.ranges[0].quantity, "thrust");
+  EXPECT_EQ(e.summary.ranges[1].quantity, "thrust of small");
+  const ProgramFolder alone_folder;
+  const Case alone = read(alone_folder, fmt::format("geometry: {{{}}}\njoints: {{friction: 0.7, compliance: "
+                                                    "{{per: area}}}}\n",
+                                                    arch(4.0)));
+  const ForceRange small = range_of_thrust(alone, generate(alone));
+  // The requested gap of a range, 1e-6 of its values, twice.
+  EXPECT_NEAR(e.summary.ranges[1].min.value.value() / small.min.value.value(), 1.0, 1e-5);
+  EXPECT_NEAR(e.summary.ranges[1].max.value.value() / small.max.value.value(), 1.0, 1e-5);
+  const std::string detail = thrust_answer(e)->detail;
+  EXPECT_NE(detail.find("; of large; "), std::string::npos) << detail;
+  EXPECT_NE(detail.find("; of small "), std::string::npos) << detail;
+}
+
+}  // namespace
+}  // namespace cupola::thrust_of_stacks_test
