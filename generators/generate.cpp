@@ -161,6 +161,22 @@ void refuse_misplaced(const std::vector<Storey>& storeys, const ModelReport& rep
           storeys[i].key, storeys[i - 1].name, storeys[i].name, storeys[i - 1].name));
 }
 
+/// Refuses an arch on several copies of a member that has none under one of its feet.
+void refuse_hanging_feet(const std::vector<Storey>& storeys, const ModelReport& report) {
+  for (const Storey& arch : storeys) {
+    const SurfaceMap& surface = arch.surface;
+    const bool on_its_own = surface.first_bed_held || surface.first_row_held || surface.last_bed_held;
+    if (arch.stands_on_previous || on_its_own || surface.closed || surface.webs > 0) continue;
+    const int first = surface.rings_below, last = first + arch.num_rings() - 1;
+    for (const int ring : {first, last})
+      if (!report.is_borne[ring])
+        throw InputError(
+            fmt::format("{}.at: under the {} foot of {} stands nothing: it needs a copy of the "
+                        "member on which it stands under either foot",
+                        arch.key, ring == first ? "first" : "last", arch.name));
+  }
+}
+
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
   Assembly assembly = cut_blocks(storeys, cut_options(input));
   if (input.geometry.imperfections) vary_density(*input.geometry.imperfections, &assembly);
@@ -259,6 +275,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   report->model = check_model(assembly, tolerances);
   refuse_floating(geometry, assembly, report->model, tolerances.joint_gap);
   refuse_misplaced(storeys, report->model);
+  refuse_hanging_feet(storeys, report->model);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
   const Case resolved = resolved_case(input, assembly);
   return with_report(std::move(assembly), *report, resolved);

@@ -35,6 +35,7 @@ void declare_surface(Section& s, Surface& surface);
 void declare_member(Section& s, Member& member);
 /// What all members have in common, that which the geometry is itself included.
 void declare_shape(Section& s, Member& member);
+void declare_affine_of(Section& s, Member& member);
 void check_closed_bonds(const Section& s, const Member& member);
 /// The rules between members.
 void check_members(const Section& s, const Geometry& geometry);

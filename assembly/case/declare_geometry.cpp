@@ -98,12 +98,6 @@ void declare_window(Section& s, Window& window) {
   s.rule(window.ends == Window::Ends::free || sector < 360, "ends", "held requires a sector below 360 deg");
 }
 
-void declare_affine(Section& s, Affine& affine) {
-  s.vector3("scale", affine.scale, {.above = 0}, "factors along x, y and z");
-  s.number("lean", affine.lean, {}, "move along the axis of a barrel, per height: its arches lean");
-  s.number("rake", affine.rake, {}, "rise along the axis of a barrel, per length");
-}
-
 void declare_stage(Section& s, Stage& stage) {
   s.required_integer("rings", stage.rings, {.min = 1, .max = kMostRings}, "number of rings built so far");
 }
@@ -124,10 +118,10 @@ void declare_geometry(Section& s, Geometry& geometry) {
       s.refuse(
           key,
           "remove this key: geometry has no surface of its own, and each of geometry.members has this key");
+    declare_affine_of(s, geometry);
   }
   s.list("members", geometry.members, "further walls, drums and vaults, or all of them", declare_member);
   check_members(s, geometry);
-  s.optional_section("affine", geometry.affine, "stretch or shear the finished masonry", declare_affine);
   s.optional_section(
       "window", geometry.window,
       "cut only some courses over a sector of the shell; bond.rings and bond.blocks_per_ring are "
@@ -162,9 +156,6 @@ void declare_geometry(Section& s, Geometry& geometry) {
   const bool whole = !geometry.window && closed;
   s.rule(geometry.chains.empty() || !geometry.window, "chains", "requires a whole vault without a window");
   s.rule(!geometry.affine || !geometry.window, "affine", "requires a whole vault without a window");
-  s.rule(
-      !geometry.affine || (geometry.affine->rake == 0.0 && geometry.affine->lean == 0.0) || !closed, "affine",
-      "lean and rake require an arch or barrel; a leaning tower stands upright under a tilted loads.gravity");
   s.rule(geometry.base_blocks == 1 || whole, "base_blocks", "requires a whole dome or octagonal vault");
   for (const Chain& chain : geometry.chains) check_chain(s, geometry, chain);
 }

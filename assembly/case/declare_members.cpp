@@ -105,6 +105,18 @@ void declare_place(Section& s, Place& place) {
            "turn about the vertical through it, counter-clockwise seen from above");
 }
 
+void declare_affine(Section& s, Affine& affine) {
+  s.vector3("scale", affine.scale, {.above = 0}, "factors along x, y and z");
+  s.number("lean", affine.lean, {}, "move along the axis of a barrel, per height: its arches lean");
+  s.number("rake", affine.rake, {}, "rise along the axis of a barrel, per length");
+}
+
+void check_affine(const Section& s, const std::optional<Affine>& affine, const Surface& surface) {
+  s.rule(!affine || (affine->rake == 0.0 && affine->lean == 0.0) || !traits_of(surface).closed, "affine",
+         "lean and rake require an arch or barrel; a leaning tower stands upright under a tilted "
+         "loads.gravity");
+}
+
 /// True if a course can be a closed ring. The letters of a drawing are counted where it is laid.
 template <class SomeBond>
 bool has_ring(const SomeBond& bond) {
@@ -115,12 +127,15 @@ bool has_ring(const DrawnBond& /*bond*/) {
 }
 
 void declare_copies(Section& s, Copies& copies) {
-  s.required_integer("count", copies.count, {.min = 2, .max = 1000},
-                     "number of them, with the member itself");
+  s.integer("count", copies.count, {.min = 0, .max = 1000}, "number of them, with the member itself");
   s.optional_vector3("about", copies.about, {.unit = "m"}, "none",
                      "they stand at equal angles round the vertical through this point");
-  s.vector3("by", copies.by, {.unit = "m"}, "move from one to the next, without `about`");
-  s.rule(copies.about.has_value() != (copies.by.norm() > 0.0), "about", "give one of about and by");
+  s.vector3("by", copies.by, {.unit = "m"}, "move from one to the next");
+  s.list("at", copies.at, "where each of the others stands, in place of count", declare_place);
+  s.rule(int{copies.about.has_value()} + int{copies.by.norm() > 0.0} + int{!copies.at.empty()} == 1, "about",
+         "give one of about, by and at");
+  s.rule(copies.at.empty() ? copies.count >= 2 : copies.count == 0, "count",
+         copies.at.empty() ? "must be at least 2" : "the places in `at` are counted; remove this key");
 }
 
 void declare_beside(Section& s, Beside& beside) {
@@ -168,29 +183,41 @@ void declare_shape(Section& s, Member& member) {
                      "member next to which this one stands, up to a common vertical plane", declare_beside);
   s.optional_section(
       "at", member.at,
-      "where the member stands, without `on`; by default at the origin, or at that of `beside`",
+      "where the member stands, by default at the origin, or at that of `beside`; with `on`, where a groin "
+      "vault or an arch stands on several copies of a member",
       declare_place);
   check_place_beside(s, member);
   s.rule(!member.beside || member.on.empty(), "beside",
          fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
-  s.rule(!member.at || member.on.empty(), "at",
-         fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
+  s.rule(member.on.empty() || !member.at || member.at->origin.z() == 0.0, "at",
+         fmt::format("the height of origin is fixed by on: {}: write 0", member.on));
   s.optional_section("copies", member.copies,
                      "equal copies of the member, and of the members that stand on it: NAME 2, NAME 3, ...",
                      declare_copies);
-  s.rule(!member.copies || member.on.empty(), "copies",
-         fmt::format("a member that stands on {} is copied with it: give `copies` there", member.on));
+  s.rule(!member.copies || member.begins_stack(), "copies",
+         fmt::format("a member that stands on {} is copied with it: give `copies` there; one that stands on "
+                     "several of its copies has `at`",
+                     member.on));
   s.optional_section("mirror", member.mirror,
                      "a mirror image of the member, and of the members that stand on it: NAME 2",
                      declare_mirror);
   s.rule(!member.mirror || (member.on.empty() && !member.copies), "mirror",
          "requires a member without `on` and `copies`");
   s.section("surface", member.surface, "shape of the masonry", declare_surface);
+  declare_affine_of(s, member);
   declare_masonry(s, member);
   s.list("openings", member.openings, "windows in a closed member, each under a lintel in one block",
          declare_openings);
   s.list("cuts", member.cuts, "convex bodies that are taken away, in coordinates of the member before `at`",
          declare_cut);
+}
+
+void declare_affine_of(Section& s, Member& member) {
+  s.optional_section(
+      "affine", member.affine,
+      "stretch or shear the finished masonry; that of the geometry acts on all members without",
+      declare_affine);
+  check_affine(s, member.affine, member.surface);
 }
 
 void check_members(const Section& s, const Geometry& geometry) {
@@ -203,6 +230,11 @@ void check_members(const Section& s, const Geometry& geometry) {
     s.rule(on.empty() || (i > 0 && members[i - 1]->name == on), key,
            fmt::format("{} must be the member before {} in the list{}", on, name,
                        i > 0 ? ", which is " + members[i - 1]->name : ""));
+    check_affine(s, affine_of(geometry, *members[i]), members[i]->surface);
+    s.rule(!geometry.affine || !geometry.has_shell || !members[i]->copies || members[i]->affine, "affine",
+           fmt::format("would act on each copy of {} along its own axes: give that member an `affine` of its "
+                       "own, {{scale: [1, 1, 1]}} to leave it as it is",
+                       name));
   }
 }
 

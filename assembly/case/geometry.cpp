@@ -49,9 +49,8 @@ const Member* member_named(const Geometry& geometry, const std::string& name) {
   const Member* base = nullptr;  // of the stack, whose members are copied with it
   for (const Member* member : members) {
     if (member->name == name) return member;
-    if (member->on.empty()) base = member;
-    const int count = base->copies ? base->copies->count : base->mirror ? 2 : 1;
-    for (int copy = 2; copy <= count; ++copy)
+    if (member->begins_stack()) base = member;
+    for (int copy = 2; copy <= base->number_of_copies(); ++copy)
       if (name == fmt::format("{} {}", member->name, copy)) return member;
   }
   return nullptr;

@@ -56,21 +56,6 @@ constexpr auto enum_names(Chain::Type) {
   return std::array{"polygon", "clamps", "rods"};
 }
 
-/// A map of all points of the masonry, which keeps planes and convexity: elliptic domes, raking barrels.
-/// Thicknesses and angles are those before the map.
-struct Affine {
-  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along the axes, > 0
-  double rake = 0.0;                                ///< rise of z per m of y, of a barrel
-  double lean = 0.0;                                ///< move along y per m of z, of a barrel, before that
-
-  Eigen::Vector3d image(const Eigen::Vector3d& point) const {
-    Eigen::Vector3d p = scale.cwiseProduct(point);
-    p.y() += lean * p.z();
-    p.z() += rake * p.y();
-    return p;
-  }
-};
-
 struct Stage {
   int rings = 0;  ///< rings built so far, >= 1
 };
@@ -95,7 +80,6 @@ struct Geometry : Member {
   std::optional<ImportedBlocks> imported;  ///< if set, all that follows is ignored
   std::vector<Member> members;             ///< a member follows the one on which it stands
   bool has_shell = true;                   ///< false: all members are in the list
-  std::optional<Affine> affine;
   std::optional<Window> window;
   std::optional<Stage> stage;
   std::vector<Chain> chains;
@@ -111,6 +95,10 @@ std::vector<const Member*> members_of(const Geometry& geometry);
 const Member* member_named(const Geometry& geometry, const std::string& name);
 /// "geometry.members[i]", or "geometry" behind them.
 std::string key_of_member(const Geometry& geometry, size_t i);
+/// Its own, or that of the geometry.
+inline const std::optional<Affine>& affine_of(const Geometry& geometry, const Member& member) {
+  return member.affine ? member.affine : geometry.affine;
+}
 inline const Member& last_member(const Geometry& geometry) {
   return *members_of(geometry).back();
 }

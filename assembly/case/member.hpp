@@ -26,6 +26,21 @@ struct Openings {
   double bearing = 0.5;         ///< m, > 0, of the lintel beyond each jamb, on the intrados
 };
 
+/// A map of all points of the masonry, which keeps planes and convexity: elliptic domes, raking barrels.
+/// Thicknesses and angles are those before the map.
+struct Affine {
+  Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< along the axes, > 0
+  double rake = 0.0;                                ///< rise of z per m of y, of a barrel
+  double lean = 0.0;                                ///< move along y per m of z, of a barrel, before that
+
+  Eigen::Vector3d image(const Eigen::Vector3d& point) const {
+    Eigen::Vector3d p = scale.cwiseProduct(point);
+    p.y() += lean * p.z();
+    p.z() += rake * p.y();
+    return p;
+  }
+};
+
 /// Where a member stands.
 struct Place {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m
@@ -50,11 +65,12 @@ struct Mirror {
 };
 
 /// Equal copies of a member, and of what stands on it: each follows from the one before by a turn about the
-/// vertical through a point, or by a move.
+/// vertical through a point, or by a move, or all stand where they are told to.
 struct Copies {
-  int count = 2;                                 ///< >= 2, with the member itself
+  int count = 0;                                 ///< >= 2, with the member itself; 0 with `at`
   std::optional<Eigen::Vector3d> about = {};     ///< m; the copies stand at equal angles round it
-  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< m, without `about`
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< m, from one to the next
+  std::vector<Place> at = {};                    ///< of all copies but the member itself
 };
 
 /// A surface with its bond: a wall, a drum, a dome. Heights of its wythes, bonders and openings count from
@@ -64,11 +80,21 @@ struct Member : Masonry {
   std::string on;  ///< name of the member on whose last bed it stands; "": on supports of its own
   std::optional<Beside> beside;
   std::optional<Place> at;  ///< none: at the origin, that of `beside`, or on the axis of the member below
+  std::optional<Affine> affine;  ///< none: that of the geometry
   std::optional<Copies> copies;
   std::optional<Mirror> mirror;
   Surface surface = DomeSurface{};
   std::vector<Openings> openings;
   std::vector<Cut> cuts;  ///< in its own coordinates, before `at`
+
+  /// With the member itself.
+  int number_of_copies() const {
+    if (mirror) return 2;
+    if (!copies) return 1;
+    return copies->at.empty() ? copies->count : static_cast<int>(copies->at.size()) + 1;
+  }
+  /// True if its supports are its own, or several copies of another.
+  bool begins_stack() const { return on.empty() || at; }
 };
 
 }  // namespace cupola

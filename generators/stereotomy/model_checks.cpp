@@ -156,6 +156,15 @@ std::vector<char> joined_sheets(const Assembly& assembly, const std::vector<std:
   return is_joined;
 }
 
+std::vector<char> borne_rings(const Assembly& assembly, const std::vector<std::pair<int, int>>& joints) {
+  std::vector<char> is_borne(static_cast<size_t>(assembly.num_rings), 0);
+  for (const auto& [a, b] : joints)
+    if (assembly.sheet_of(assembly.blocks[a].ring) != assembly.sheet_of(assembly.blocks[b].ring))
+      for (const int block : {a, b})
+        if (!assembly.blocks[block].fixed) is_borne[assembly.blocks[block].ring] = 1;
+  return is_borne;
+}
+
 std::vector<HangingCorner> find_hanging_corners(const Assembly& assembly,
                                                 const std::vector<std::pair<int, int>>& joints) {
   const std::vector<Block>& blocks = assembly.blocks;
@@ -250,6 +259,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());
   report->is_joined = joined_sheets(assembly, joints);
+  report->is_borne = borne_rings(assembly, joints);
   report->hanging_corners = find_hanging_corners(assembly, joints);
   for (const NarrowJoint& joint : narrow)
     if (!std::ranges::binary_search(joints, std::pair(joint.block_a, joint.block_b)))

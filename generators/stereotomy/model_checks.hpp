@@ -50,6 +50,7 @@ struct ModelReport {
   std::vector<int> blocks_without_joint;  ///< and without tie
   std::optional<int> floating;            ///< first block of an island without a support
   std::vector<char> is_joined;            ///< by sheet: a block has a joint with one of the sheet before
+  std::vector<char> is_borne;             ///< by ring: a block has a joint with a support or another sheet
   std::vector<HangingCorner> hanging_corners;
   std::vector<NarrowJoint> narrow_joints;  ///< ignored by contact detection
   std::vector<FacePair> joint_faces;       ///< one pair per two parts that meet; only if checked part by part

@@ -80,6 +80,29 @@ Eigen::Isometry3d reflection_in(const Mirror& mirror) {
   return motion;
 }
 
+/// The motions from a member to its copies, or to its mirror image.
+std::vector<Eigen::Isometry3d> motions_to_copies(const Member& member) {
+  if (member.mirror) return {reflection_in(*member.mirror)};
+  std::vector<Eigen::Isometry3d> motions;
+  if (!member.copies) return motions;
+  const Eigen::Isometry3d own = placement_at(member.at.value_or(Place{}));
+  for (const Place& place : member.copies->at) motions.push_back(placement_at(place) * own.inverse());
+  for (int copy = 2; copy <= member.copies->count; ++copy)
+    motions.push_back(step_of(*member.copies) *
+                      (motions.empty() ? Eigen::Isometry3d::Identity() : motions.back()));
+  return motions;
+}
+
+/// The axis of a groin vault on copies of a member.
+Vec3 axis_on(const Member& bearer, const Storey& lower) {
+  Vec3 axis = lower.placement.translation();
+  if (!bearer.copies) return axis;
+  if (bearer.copies->about) return *bearer.copies->about;
+  const std::vector<Eigen::Isometry3d> motions = motions_to_copies(bearer);
+  for (const Eigen::Isometry3d& motion : motions) axis += motion * lower.placement.translation();
+  return axis / (1.0 + static_cast<double>(motions.size()));
+}
+
 /// True if the plane of a mirror is that of symmetry of an arch: it halves the distance of its springings.
 bool maps_onto_itself(const Mirror& mirror, const Storey& arch) {
   constexpr double kRounding = 1e-9;  // m per m
@@ -97,7 +120,8 @@ Eigen::Isometry3d placement_at(const Place& place) {
          Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
 }
 
-void stand_on(const std::string& key, const Member& bearer, Storey* lower, Storey* storey) {
+void stand_on(const std::string& key, const Member& bearer, const Member& member, Storey* lower,
+              Storey* storey) {
   const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
   if (lower->surface.carries)
     throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
@@ -107,14 +131,22 @@ void stand_on(const std::string& key, const Member& bearer, Storey* lower, Store
   if (storey->surface.webs > 0) {
     const double rise = lower->placement.translation().z() + top -
                         level_of_springers(*storey, on + "the first beds of " + storey->name);
-    const bool turned = bearer.copies && bearer.copies->about;
-    const Vec3 axis = turned ? *bearer.copies->about : lower->placement.translation();
-    storey->placement = Eigen::Translation3d(axis.x(), axis.y(), rise);
+    if (!member.at) storey->placement.translation() = axis_on(bearer, *lower);
+    storey->placement.translation().z() = rise;
     return;
   }
   const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
-  storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
-  if (storey->surface.last_bed_held && bearer.mirror && maps_onto_itself(*bearer.mirror, *storey)) {
+  if (member.at && (!storey->surface.last_bed_held || bearer.number_of_copies() == 1))
+    throw InputError(
+        fmt::format("{}.at: a member that stands on {} lies on its axis; a place of its own has an "
+                    "arch or groin vault on several copies of it",
+                    key, lower->name));
+  if (member.at)
+    storey->placement.translation().z() = lower->placement.translation().z() + top - foot;
+  else
+    storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
+  if (member.at ||
+      (storey->surface.last_bed_held && bearer.mirror && maps_onto_itself(*bearer.mirror, *storey))) {
     level_of(storey->surface, storey->surface.num_rows, on + "the last bed of " + storey->name);
     storey->surface.last_bed_held = false;
     return;
@@ -166,10 +198,9 @@ void limit_neighbours(std::vector<Storey>* storeys) {
 
 void copy_stack(const Member& member, size_t first, std::vector<Storey>* storeys) {
   const size_t end = storeys->size();
-  const int count = member.copies ? member.copies->count : member.mirror ? 2 : 1;
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  for (int copy = 2; copy <= count; ++copy) {
-    motion = (member.copies ? step_of(*member.copies) : reflection_in(*member.mirror)) * motion;
+  int copy = 1;
+  for (const Eigen::Isometry3d& motion : motions_to_copies(member)) {
+    ++copy;
     for (size_t i = first; i < end; ++i) {
       Storey storey = (*storeys)[i];
       storey.name += fmt::format(" {}", copy);

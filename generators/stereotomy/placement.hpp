@@ -13,10 +13,11 @@ namespace cupola {
 /// From the coordinates of a member to those in which its place is given.
 Eigen::Isometry3d placement_at(const Place& place);
 /// Puts a member on the one below it, whose last bed must be as level as its own first. Two kinds stand on
-/// several and begin a stack of their own: a groin vault, on the axis about which the `bearer` has `copies`,
-/// and an arch whose plane of symmetry is that of its `mirror`. `bearer`: the first member of the stack
-/// below.
-void stand_on(const std::string& key, const Member& bearer, Storey* lower, Storey* storey);
+/// several and begin a stack of their own: a groin vault, by default on the axis about which the `bearer` has
+/// `copies`, and an arch with a place of its own, or whose plane of symmetry is that of the `mirror` of the
+/// bearer. `bearer`: the first member of the stack below.
+void stand_on(const std::string& key, const Member& bearer, const Member& member, Storey* lower,
+              Storey* storey);
 /// Puts a member beside one of those before it, and ends its supports at their common plane. Its placement on
 /// entry counts from the other member.
 void stand_beside(const Beside& beside, const std::string& key, const std::vector<Storey>& storeys,

@@ -143,7 +143,8 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
                            : make_surface(member.surface, courses, thicknesses(member.wythes));
   if (stage > 0 && surface.key_stone) surface.carries = false;  // the stone is to come
   const SurfaceMap before_affine = surface;
-  if (geometry.affine && surface.webs == 0) apply(*geometry.affine, &surface);
+  const std::optional<Affine>& affine = affine_of(geometry, member);
+  if (affine && surface.webs == 0) apply(*affine, &surface);
   if (surface.webs > 0 && stage > 0)
     throw InputError("geometry.stage: not available for a groin vault; remove this section");
   if (surface.webs > 0 && geometry.imperfections && geometry.imperfections->of_shape())
@@ -164,7 +165,7 @@ Storey make_member(const Geometry& geometry, const Member& member, const std::st
   BondPattern bond = lay_masonry(member, surface, grid);
   if (grid.round) {
     surface = faceted(before_affine, bond.cuts_of(0));
-    if (geometry.affine) apply(*geometry.affine, &surface);
+    if (affine) apply(*affine, &surface);
   }
   std::vector<std::string> names = names_of(geometry, member);
   lay_chains(geometry, member, grid, refinement, &bond);
@@ -203,14 +204,14 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
   for (size_t i = 0; i < members.size(); ++i) {
     Storey storey = named_member(geometry, i);
     storey.cuts = members[i]->cuts;
-    if (storey.surface.webs > 0) storey.affine = geometry.affine;
+    if (storey.surface.webs > 0) storey.affine = affine_of(geometry, *members[i]);
     storey.key = key_of_member(geometry, i);
+    if (members[i]->at) storey.placement = placement_at(*members[i]->at);
     if (members[i]->on.empty()) {
       if (i > 0) copy_stack(*members[first], first_storey, &storeys);
-      if (members[i]->at) storey.placement = placement_at(*members[i]->at);
       if (members[i]->beside) stand_beside(*members[i]->beside, storey.key, storeys, &storey);
     } else {
-      stand_on(storey.key, *members[first], &storeys.back(), &storey);
+      stand_on(storey.key, *members[first], *members[i], &storeys.back(), &storey);
       if (!storey.stands_on_previous) copy_stack(*members[first], first_storey, &storeys);
     }
     if (!storeys.empty())

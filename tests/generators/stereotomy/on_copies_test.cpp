@@ -1,0 +1,142 @@
+// Vaults and arches that stand on several copies of a member: bays and arcades.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "generators/generate.hpp"
+#include "tests/generators/models.hpp"
+
+namespace cupola::on_copies_test {
+namespace {
+
+std::string error_of(const Case& scene) {
+  try {
+    generate(scene);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Member pier(const Place& at) {
+  Member member;
+  member.name = "pier";
+  member.at = at;
+  member.surface = WallSurface{1.0, 3.0, 1.0};
+  member.bond = StackBond{3, 1, 1, {}};
+  return member;
+}
+
+/// A groin vault over a square of 6 m, 4 m wide along y, on piers whose corners lie on its axis by 2 and 3 m.
+Case bay() {
+  constexpr double kHalfX = 3.0, kHalfY = 2.0, kInside = 0.5;
+  Case c;
+  VaultSurface groin;
+  groin.plan.kind = Plan::Kind::groin;
+  groin.plan.sides = 4;
+  groin.plan.springers = 2;
+  groin.profile.span = 2.0 * kHalfX;
+  groin.thickness = 0.3;
+  c.geometry.surface = groin;
+  c.geometry.bond = RunningBond{14, 6, 2};
+  c.geometry.affine = Affine{.scale = {1.0, kHalfY / kHalfX, 1.0}};
+  Member piers = pier(Place{{kHalfX - kInside, kHalfY - kInside, 0.0}});
+  piers.affine = Affine{};
+  piers.copies.emplace();
+  for (const auto& [x, y, turn] : {std::array{-kHalfX + kInside, kHalfY - kInside, 90.0},
+                                   {-kHalfX + kInside, -kHalfY + kInside, 180.0},
+                                   {kHalfX - kInside, -kHalfY + kInside, 270.0}})
+    piers.copies->at.push_back({{x, y, 0.0}, turn});
+  c.geometry.members = {piers};
+  c.geometry.on = "pier";
+  return c;
+}
+
+/// Three half circles of 3 m and 0.5 m thick, between four piers at distances of 4 m.
+Case arcade() {
+  Case c;
+  Member piers = pier(Place{{-0.5, 0.0, 0.0}});
+  piers.copies = Copies{.count = 4, .by = {4.0, 0.0, 0.0}};
+  c.geometry.members = {piers};
+  VaultSurface arch;
+  arch.plan.kind = Plan::Kind::line;
+  arch.plan.length = 1.0;
+  arch.profile.span = 3.0;
+  arch.thickness = 0.5;
+  c.geometry.surface = arch;
+  c.geometry.bond = StackBond{15, 1, 1, {}};
+  c.geometry.on = "pier";
+  c.geometry.at = Place{{2.0, 0.5, 0.0}};
+  c.geometry.copies = Copies{.count = 3, .by = {4.0, 0.0, 0.0}};
+  return c;
+}
+
+// The vault has the volume of that over the square, by the scale; the piers keep theirs.
+TEST(OnCopies, BaysMayBeRectangles) {
+  Case square;
+  square.geometry.surface = bay().geometry.surface;
+  square.geometry.bond = bay().geometry.bond;
+  ModelReport alone, report;
+  check_and_report(square, &alone);
+  const Assembly assembly = check_and_report(bay(), &report);
+  EXPECT_NEAR(report.volume, alone.volume * 2.0 / 3.0 + 4.0 * 3.0, 1e-13 * report.volume) << "rounding";
+  EXPECT_EQ(report.num_supports, 4);
+  EXPECT_EQ(report.islands, 1);
+  EXPECT_TRUE(report.hanging_corners.empty());
+  ASSERT_EQ(assembly.sheets.size(), 5u);
+  EXPECT_LT((assembly.sheets[4].origin.head<2>()).norm(), 1e-15) << "the mean of the places of the piers";
+}
+
+TEST(OnCopies, BaysMayShareTheirPiers) {
+  Case two = bay();
+  two.geometry.at = Place{};
+  two.geometry.copies = Copies{.count = 2, .by = {0.0, 4.0, 0.0}};
+  Copies& piers = *two.geometry.members[0].copies;
+  for (const auto& [x, turn] : {std::pair(2.5, 0.0), {-2.5, 90.0}}) piers.at.push_back({{x, 5.5, 0.0}, turn});
+  two.geometry.members[0].surface = WallSurface{1.0, 3.0, 1.0};
+  ModelReport one, report;
+  check_and_report(bay(), &one);
+  const Assembly assembly = check_and_report(two, &report);
+  EXPECT_NEAR(report.volume, 2.0 * one.volume - 2.0 * 3.0, 1e-13 * report.volume) << "six piers, not eight";
+  EXPECT_EQ(report.num_supports, 6);
+  EXPECT_EQ(report.islands, 1);
+  EXPECT_TRUE(report.hanging_corners.empty());
+  EXPECT_EQ(assembly.sheets.back().name, "shell 2");
+  EXPECT_GT(report.num_joints, 2 * one.num_joints - 8) << "and the bays touch each other";
+}
+
+TEST(OnCopies, ArchesMayShareThem) {
+  ModelReport report;
+  const Assembly assembly = check_and_report(arcade(), &report);
+  EXPECT_EQ(report.num_blocks, 4 * 3 + 3 * 15);
+  EXPECT_EQ(report.num_supports, 4);
+  EXPECT_EQ(report.islands, 1);
+  // 2 in each pier, 14 in each arch, 6 under feet, 4 under piers, and the feet of two arches touch in none.
+  EXPECT_EQ(report.num_joints, 4 * 2 + 3 * 14 + 6 + 4);
+  const double ring = 0.5 * std::numbers::pi * (2.0 * 2.0 - 1.5 * 1.5),
+               chords = std::sin(std::numbers::pi / 15);
+  EXPECT_NEAR(report.volume, 4.0 * 3.0 + 3.0 * ring * chords * 15 / std::numbers::pi, 1e-12);
+  for (const Sheet& sheet : assembly.sheets) EXPECT_FALSE(sheet.on_previous) << sheet.name;
+}
+
+TEST(OnCopies, WhatHangsIsRefused) {
+  Case far = arcade(), one = arcade(), lone = arcade();
+  far.geometry.copies->count = 4;  // the last foot lies where a fifth pier would stand
+  EXPECT_NE(error_of(far).find("geometry.at: under the last foot of shell 4 stands nothing"),
+            std::string::npos)
+      << error_of(far);
+  lone.geometry.members[0].copies.reset();
+  EXPECT_NE(error_of(lone).find("geometry.at: a member that stands on pier lies on its axis"),
+            std::string::npos)
+      << error_of(lone);
+  one.geometry.surface = WallSurface{1.0, 1.0, 1.0};
+  EXPECT_NE(error_of(one).find("geometry.at: a member that stands on pier lies on its axis"),
+            std::string::npos)
+      << error_of(one);
+}
+
+}  // namespace
+}  // namespace cupola::on_copies_test
