@@ -168,12 +168,14 @@ void refuse_hanging_feet(const std::vector<Storey>& storeys, const ModelReport& 
     const bool on_its_own = surface.first_bed_held || surface.first_row_held || surface.last_bed_held;
     if (arch.stands_on_previous || on_its_own || surface.closed || surface.webs > 0) continue;
     const int first = surface.rings_below, last = first + arch.num_rings() - 1;
-    for (const int ring : {first, last})
-      if (!report.is_borne[ring])
-        throw InputError(
-            fmt::format("{}.at: under the {} foot of {} stands nothing: it needs a copy of the "
-                        "member on which it stands under either foot",
-                        arch.key, ring == first ? "first" : "last", arch.name));
+    for (const auto& [ring, bed] : {std::pair(first, 0), std::pair(last, surface.num_rows)}) {
+      if (report.is_borne[ring]) continue;
+      const Vec3 foot = arch.placement * surface.intrados(bed, 0.0);
+      throw InputError(
+          fmt::format("{}.at: nothing stands under the foot of {} at ({:.4g}, {:.4g}, {:.4g}) m; "
+                      "each foot needs a copy of the member on which the arch stands",
+                      arch.key, arch.name, foot.x(), foot.y(), foot.z()));
+    }
   }
 }
 

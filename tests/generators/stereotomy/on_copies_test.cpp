@@ -125,7 +125,7 @@ TEST(OnCopies, ArchesMayShareThem) {
 TEST(OnCopies, WhatHangsIsRefused) {
   Case far = arcade(), one = arcade(), lone = arcade();
   far.geometry.copies->count = 4;  // the last foot lies where a fifth pier would stand
-  EXPECT_NE(error_of(far).find("geometry.at: under the last foot of shell 4 stands nothing"),
+  EXPECT_NE(error_of(far).find("geometry.at: nothing stands under the foot of shell 4 at (15.5, 0, 3) m"),
             std::string::npos)
       << error_of(far);
   lone.geometry.members[0].copies.reset();
