@@ -69,7 +69,7 @@ Case arcade() {
   c.geometry.surface = arch;
   c.geometry.bond = StackBond{15, 1, 1, {}};
   c.geometry.on = "pier";
-  c.geometry.at = Place{{2.0, 0.5, 0.0}};
+  c.geometry.at = Place{{2.0, 0.0, 0.0}};
   c.geometry.copies = Copies{.count = 3, .by = {4.0, 0.0, 0.0}};
   return c;
 }
