@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <variant>
 
@@ -227,9 +229,13 @@ void check_members(const Section& s, const Geometry& geometry) {
     const std::string key = members[i] == &geometry ? "on" : "members";
     for (size_t k = 0; k < i; ++k)
       s.rule(members[k]->name != name, "members", fmt::format("two members are called {}", name));
-    s.rule(on.empty() || (i > 0 && members[i - 1]->name == on), key,
-           fmt::format("{} must be the member before {} in the list{}", on, name,
-                       i > 0 ? ", which is " + members[i - 1]->name : ""));
+    const bool is_before = i > 0 && members[i - 1]->name == on;
+    const bool is_earlier = std::any_of(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const Member* member) { return member->name == on; });
+    s.rule(on.empty() || is_before || (members[i]->at && is_earlier), key,
+           fmt::format("{} must be {} {} in the list{}", on,
+                       members[i]->at ? "a member before" : "the member before", name,
+                       i > 0 && !members[i]->at ? ", which is " + members[i - 1]->name : ""));
     check_affine(s, affine_of(geometry, *members[i]), members[i]->surface);
     s.rule(!geometry.affine || !geometry.has_shell || !members[i]->copies || members[i]->affine, "affine",
            fmt::format("would act on each copy of {} along its own axes: give that member an `affine` of its "

@@ -136,8 +136,8 @@ std::string places_of_members(const Assembly& assembly, int a, int b) {
   };
   if (name(a) == name(b) && !assembly.blocks[a].fixed) return {};
   const Vec3& p = assembly.blocks[b].centroid;
-  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; geometry.members: move one by `at`",
-                     name(a), name(b), p.x(), p.y(), p.z());
+  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; move one member by `at`", name(a),
+                     name(b), p.x(), p.y(), p.z());
 }
 
 /// Pairs of blocks that overlap by more than the bound, and by how much (m).
@@ -199,14 +199,13 @@ std::vector<HangingCorner> find_hanging_corners(const Assembly& assembly,
   const double largest = -deepest.front().first;
   const bool is_imported = !names.origins.empty();
   std::string text =
-      fmt::format("blocks {} and {} overlap by {:.3g} m{}", names.name(a), names.with_source(b), largest,
-                  is_imported ? "" : places_of_members(assembly, a, b));
+      fmt::format("{}blocks {} and {} overlap by {:.3g} m{}", is_imported ? "" : "geometry: ", names.name(a),
+                  names.with_source(b), largest, is_imported ? "" : places_of_members(assembly, a, b));
   if (tolerances.part_by_part && is_imported)
     text += fmt::format(
         ", more than contact.margin = {:.3g} m: correct the geometry or increase contact.margin to {:.2g} m",
         tolerances.overlap, 1.05 * largest);
-  if (deepest.size() > 1)
-    text += fmt::format("; {} overlap by more than that:", counted(deepest.size(), "pair"));
+  if (deepest.size() > 1) text += fmt::format("; {} overlap:", counted(deepest.size(), "pair"));
   for (size_t i = 0; deepest.size() > 1 && i < std::min(kListed, deepest.size()); ++i)
     text += fmt::format("{} {} and {} by {:.3g} m", i == 0 ? "" : ",", names.name(deepest[i].second.first),
                         names.name(deepest[i].second.second), -deepest[i].first);

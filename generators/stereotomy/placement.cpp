@@ -120,18 +120,17 @@ Eigen::Isometry3d placement_at(const Place& place) {
          Eigen::AngleAxisd(place.rotate_deg * kRadians, Eigen::Vector3d::UnitZ());
 }
 
-void stand_on(const std::string& key, const Member& bearer, const Member& member, Storey* lower,
+void stand_on(const std::string& key, const Member& bearer, const Member& member, const Storey& lower,
               Storey* storey) {
-  const std::string on = fmt::format("{}.on = {}: ", key, lower->name);
-  if (lower->surface.carries)
+  const std::string on = fmt::format("{}.on = {}: ", key, lower.name);
+  if (lower.surface.carries && !lower.bears_another)
     throw InputError(on + "nothing can stand on its last bed, behind which a support or a key stone lies");
-  const double top = level_of(lower->surface, lower->surface.num_rows, on + "its last bed");
+  const double top = level_of(lower.surface, lower.surface.num_rows, on + "its last bed");
   storey->surface.first_bed_held = false;
-  lower->surface.carries = true;
   if (storey->surface.webs > 0) {
-    const double rise = lower->placement.translation().z() + top -
+    const double rise = lower.placement.translation().z() + top -
                         level_of_springers(*storey, on + "the first beds of " + storey->name);
-    if (!member.at) storey->placement.translation() = axis_on(bearer, *lower);
+    if (!member.at) storey->placement.translation() = axis_on(bearer, lower);
     storey->placement.translation().z() = rise;
     return;
   }
@@ -140,11 +139,11 @@ void stand_on(const std::string& key, const Member& bearer, const Member& member
     throw InputError(
         fmt::format("{}.at: a member that stands on {} lies on its axis; a place of its own has an "
                     "arch or groin vault on several copies of it",
-                    key, lower->name));
+                    key, lower.name));
   if (member.at)
-    storey->placement.translation().z() = lower->placement.translation().z() + top - foot;
+    storey->placement.translation().z() = lower.placement.translation().z() + top - foot;
   else
-    storey->placement = lower->placement * Eigen::Translation3d(0.0, 0.0, top - foot);
+    storey->placement = lower.placement * Eigen::Translation3d(0.0, 0.0, top - foot);
   if (member.at ||
       (storey->surface.last_bed_held && bearer.mirror && maps_onto_itself(*bearer.mirror, *storey))) {
     level_of(storey->surface, storey->surface.num_rows, on + "the last bed of " + storey->name);

@@ -16,7 +16,7 @@ Eigen::Isometry3d placement_at(const Place& place);
 /// several and begin a stack of their own: a groin vault, by default on the axis about which the `bearer` has
 /// `copies`, and an arch with a place of its own, or whose plane of symmetry is that of the `mirror` of the
 /// bearer. `bearer`: the first member of the stack below.
-void stand_on(const std::string& key, const Member& bearer, const Member& member, Storey* lower,
+void stand_on(const std::string& key, const Member& bearer, const Member& member, const Storey& lower,
               Storey* storey);
 /// Puts a member beside one of those before it, and ends its supports at their common plane. Its placement on
 /// entry counts from the other member.

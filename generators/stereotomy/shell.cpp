@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -199,7 +200,8 @@ Storey named_member(const Geometry& geometry, size_t i) {
 std::vector<Storey> make_storeys(const Geometry& geometry) {
   const std::vector<const Member*> members = members_of(geometry);
   std::vector<Storey> storeys;
-  size_t first = 0;  // of the stack, member and storey
+  std::map<std::string, size_t> bearer;  // by member: the first of its stack
+  size_t first = 0;                      // of the stack, member and storey
   size_t first_storey = 0;
   for (size_t i = 0; i < members.size(); ++i) {
     Storey storey = named_member(geometry, i);
@@ -211,7 +213,10 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
       if (i > 0) copy_stack(*members[first], first_storey, &storeys);
       if (members[i]->beside) stand_beside(*members[i]->beside, storey.key, storeys, &storey);
     } else {
-      stand_on(storey.key, *members[first], *members[i], &storeys.back(), &storey);
+      const Storey& lower = *std::ranges::find(storeys, members[i]->on, &Storey::name);
+      stand_on(storey.key, *members[bearer.at(members[i]->on)], *members[i], lower, &storey);
+      for (Storey& copy : storeys)
+        if (copy.key == lower.key) copy.surface.carries = copy.bears_another = true;
       if (!storey.stands_on_previous) copy_stack(*members[first], first_storey, &storeys);
     }
     if (!storeys.empty())
@@ -220,6 +225,7 @@ std::vector<Storey> make_storeys(const Geometry& geometry) {
       first = i;
       first_storey = storeys.size();
     }
+    bearer[members[i]->name] = first;
     storeys.push_back(std::move(storey));
   }
   copy_stack(*members[first], first_storey, &storeys);

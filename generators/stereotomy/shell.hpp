@@ -25,6 +25,7 @@ struct Storey {
       Eigen::Isometry3d::Identity();  ///< from the coordinates of the surface to the world; a mirror image
                                       ///< is reflected
   bool stands_on_previous = false;
+  bool bears_another = false;
   std::vector<Cut> cuts = {};
   std::string key = {};               ///< of the member, for messages
   std::optional<Affine> affine = {};  ///< of a groin vault, after its webs are cut

@@ -392,7 +392,7 @@ TEST(Members, AreRefusedWithTheirNames) {
   EXPECT_NE(message_of(members_case({low, arch})).find("geometry.members[1].on = low: nothing of arch"),
             std::string::npos);
   beside.at = Place{{8.0, 0.0, 0.0}, 0.0};
-  EXPECT_NE(message_of(members_case({low, beside})).find("geometry.members: move one"), std::string::npos);
+  EXPECT_NE(message_of(members_case({low, beside})).find("move one member by `at`"), std::string::npos);
   Member cap = tower("cap", 10.0);
   cap.on = "low";
   VaultSurface segment;

@@ -122,6 +122,38 @@ TEST(OnCopies, ArchesMayShareThem) {
   for (const Sheet& sheet : assembly.sheets) EXPECT_FALSE(sheet.on_previous) << sheet.name;
 }
 
+// Four piers at the corners of a square, two arches between them along x and two along y.
+TEST(OnCopies, SeveralMembersMayShareThem) {
+  Case square;
+  Member piers = pier(Place{{-0.5, -0.5, 0.0}});
+  piers.copies.emplace();
+  for (const auto& [x, y] : {std::pair(3.5, -0.5), {-0.5, 3.5}, {3.5, 3.5}})
+    piers.copies->at.push_back({{x, y, 0.0}});
+  VaultSurface arch;
+  arch.plan.kind = Plan::Kind::line;
+  arch.plan.length = 0.4;
+  arch.profile.span = 3.2;
+  arch.thickness = 0.4;
+  Member along;
+  along.name = "along";
+  along.on = "pier";
+  along.surface = arch;
+  along.bond = StackBond{15, 1, 1, {}};
+  along.at = Place{{2.0, -0.4, 0.0}};
+  along.copies = Copies{.count = 2, .by = {0.0, 4.4, 0.0}};
+  Member across = along;
+  across.name = "across";
+  across.at = Place{{0.0, 2.0, 0.0}, 90.0};
+  across.copies->by = {4.4, 0.0, 0.0};
+  square.geometry.members = {piers, along, across};
+  square.geometry.has_shell = false;
+  ModelReport report;
+  check_and_report(square, &report);
+  EXPECT_EQ(report.num_blocks, 4 * 3 + 4 * 15);
+  EXPECT_EQ(report.num_joints, 4 * (1 + 2) + 4 * (14 + 2));
+  EXPECT_EQ(report.islands, 1);
+}
+
 TEST(OnCopies, WhatHangsIsRefused) {
   Case far = arcade(), one = arcade(), lone = arcade();
   far.geometry.copies->count = 4;  // the last foot lies where a fifth pier would stand
