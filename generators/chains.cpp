@@ -117,8 +117,9 @@ class Level {
     const double height = *chain_.height, bottom = own(low, abscissa, chain_.place).z(),
                  top = own(high, abscissa, chain_.place).z();
     if (height <= bottom || height >= top)
-      throw InputError(fmt::format("{}.height = {}: the masonry reaches from {:.6g} to {:.6g} m there", key_,
-                                   height, bottom, top));
+      throw InputError(
+          fmt::format("{}.height = {}: must lie between {:.6g} and {:.6g} m, the ends of the masonry there",
+                      key_, height, bottom, top));
     for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
       (own(middle, abscissa, chain_.place).z() < height ? low : high) = middle;

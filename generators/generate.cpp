@@ -22,6 +22,7 @@
 #include "generators/chains.hpp"
 #include "generators/importer/import_supports.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
+#include "generators/stereotomy/placement.hpp"
 #include "generators/surface/make_surface.hpp"
 
 namespace cupola {
@@ -173,10 +174,19 @@ void refuse_hanging_feet(const std::vector<Storey>& storeys, const ModelReport& 
       const Vec3 foot = arch.placement * surface.intrados(bed, 0.0);
       throw InputError(
           fmt::format("{}.at: nothing stands under the foot of {} at ({:.4g}, {:.4g}, {:.4g}) m; "
-                      "each foot needs a copy of the member on which the arch stands",
+                      "each foot needs a pier that ends there",
                       arch.key, arch.name, foot.x(), foot.y(), foot.z()));
     }
   }
+}
+
+std::vector<GenerateReport::Springing> springings_of(const std::vector<Storey>& storeys) {
+  std::vector<GenerateReport::Springing> springings;
+  for (const Storey& vault : storeys)
+    if (vault.surface.springers > 0)
+      springings.push_back({vault.name, vault.placement.translation().z(),
+                            vault.placement.translation().z() + level_of_springers(vault)});
+  return springings;
 }
 
 Assembly cut_storeys(const Case& input, const std::vector<Storey>& storeys) {
@@ -279,6 +289,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   refuse_misplaced(storeys, report->model);
   refuse_hanging_feet(storeys, report->model);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
+  report->springings = springings_of(storeys);
   const Case resolved = resolved_case(input, assembly);
   return with_report(std::move(assembly), *report, resolved);
 }
@@ -295,8 +306,12 @@ bool have_same_blocks(const Case& a, const Case& b) {
 }
 
 std::string to_text(const GenerateReport& report) {
-  if (!report.import) return to_text(report.model);
-  return to_text(*report.import) + to_text(report.model);
+  if (report.import) return to_text(*report.import) + to_text(report.model);
+  std::string text = to_text(report.model);
+  for (const GenerateReport::Springing& at : report.springings)
+    text += fmt::format("{} springs at z = {:.4g} m, its first beds lie at {:.4g} m\n", at.member, at.z,
+                        at.first_beds);
+  return text;
 }
 
 std::vector<std::string> warnings_of(const GenerateReport& report) {

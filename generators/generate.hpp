@@ -14,6 +14,12 @@ namespace cupola {
 struct GenerateReport {
   ModelReport model;
   std::optional<ImportReport> import;  ///< only for imported blocks
+  /// Groin vaults on springers, whose span and rise count from the springing below these.
+  struct Springing {
+    std::string member;
+    double z = 0.0, first_beds = 0.0;  ///< m
+  };
+  std::vector<Springing> springings;
 };
 
 /// Cuts the surface of a case along its bond, without checking the blocks.

@@ -8,13 +8,23 @@ namespace cupola {
 
 namespace {
 
+/// True if a stone is a springer of a vault, or the last of an arch: one beside it springs from the same
+/// bearer.
+bool springs(const Assembly& assembly, const Block& block) {
+  const Sheet* vault = assembly.vault_of(block.ring);
+  if (!vault) return false;
+  const bool is_last = block.ring + block.num_rings == vault->first_ring + vault->num_rings;
+  return block.ring == vault->first_ring || (is_last && vault->thrust_lines == Sheet::ThrustLines::one);
+}
+
 /// True if `upper` stands or leans on `lower` by a joint with this normal of either sign. By a level normal it
-/// does so unless heads meet.
+/// does so unless heads meet, or both are springers.
 bool bears(const Assembly& assembly, int lower, int upper, JointKind kind, const Vec3& normal) {
   constexpr double kLevel = 1e-6;
   const bool upwards = normal.dot(assembly.blocks[upper].centroid - assembly.blocks[lower].centroid) >= 0.0;
   const double rise = upwards ? normal.z() : -normal.z();
-  return rise > kLevel || (rise >= -kLevel && kind != JointKind::head);
+  return rise > kLevel ||
+         (rise >= -kLevel && kind != JointKind::head && !springs(assembly, assembly.blocks[lower]));
 }
 
 /// m, halfway between the ends of the stones of an arch along x in its own frame; 0 of others.

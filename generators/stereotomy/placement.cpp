@@ -29,15 +29,6 @@ double level_of(const SurfaceMap& surface, double bed, const std::string& what) 
   return z;
 }
 
-/// z of the level beds of springers, m.
-double level_of_springers(const Storey& vault, const std::string& what) {
-  if (vault.surface.springers == 0 || (vault.affine && vault.affine->rake != 0.0))
-    throw InputError(what +
-                     " are not level: a member stands on level beds; give plan.springers, and no rake");
-  const double low = std::min(vault.surface.intrados(0, 0.0).z(), vault.surface.extrados(0, 0.0).z());
-  return vault.affine ? vault.affine->scale.z() * low : low;
-}
-
 /// The largest coordinate of a member along a horizontal direction of its own frame, m. A plane cut across
 /// that direction ends it; a joint does not.
 double reach(const Storey& storey, const Vec3& direction) {
@@ -114,6 +105,11 @@ bool maps_onto_itself(const Mirror& mirror, const Storey& arch) {
 
 }  // namespace
 
+double level_of_springers(const Storey& vault) {
+  const double low = std::min(vault.surface.intrados(0, 0.0).z(), vault.surface.extrados(0, 0.0).z());
+  return vault.affine ? vault.affine->scale.z() * low : low;
+}
+
 Eigen::Isometry3d placement_at(const Place& place) {
   constexpr double kRadians = std::numbers::pi / 180.0;
   return Eigen::Translation3d(place.origin) *
@@ -128,17 +124,21 @@ void stand_on(const std::string& key, const Member& bearer, const Member& member
   const double top = level_of(lower.surface, lower.surface.num_rows, on + "its last bed");
   storey->surface.first_bed_held = false;
   if (storey->surface.webs > 0) {
-    const double rise = lower.placement.translation().z() + top -
-                        level_of_springers(*storey, on + "the first beds of " + storey->name);
+    if (storey->surface.springers == 0 || (storey->affine && storey->affine->rake != 0.0))
+      throw InputError(
+          fmt::format("{}the first beds of {} are not level: a member stands on level beds; give "
+                      "plan.springers, and no rake",
+                      on, storey->name));
+    const double rise = lower.placement.translation().z() + top - level_of_springers(*storey);
     if (!member.at) storey->placement.translation() = axis_on(bearer, lower);
     storey->placement.translation().z() = rise;
     return;
   }
   const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
-  if (member.at && (!storey->surface.last_bed_held || bearer.number_of_copies() == 1))
+  if (member.at && !storey->surface.last_bed_held)
     throw InputError(
-        fmt::format("{}.at: a member that stands on {} lies on its axis; a place of its own has an "
-                    "arch or groin vault on several copies of it",
+        fmt::format("{}.at: a member that stands on {} lies on its axis; only arches and groin "
+                    "vaults have a place of their own, their feet on what ends at that level",
                     key, lower.name));
   if (member.at)
     storey->placement.translation().z() = lower.placement.translation().z() + top - foot;

@@ -12,6 +12,8 @@ namespace cupola {
 
 /// From the coordinates of a member to those in which its place is given.
 Eigen::Isometry3d placement_at(const Place& place);
+/// m, z of the level beds of springers in the coordinates of a groin vault, whose springing is at 0.
+double level_of_springers(const Storey& vault);
 /// Puts a member on the one below it, whose last bed must be as level as its own first. Two kinds stand on
 /// several and begin a stack of their own: a groin vault, by default on the axis about which the `bearer` has
 /// `copies`, and an arch with a place of its own, or whose plane of symmetry is that of the `mirror` of the

@@ -79,6 +79,15 @@ std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
   std::erase_if(pushing, [&e](const Sheet* sheet) {
     return sheet->num_rings == 0 || (!e.rings.empty() && base_of(e, *sheet).blocks == 0);
   });
+  if (pushing.size() < 2 || e.rings.empty()) return pushing;
+  auto most = pushing.begin();
+  double greatest = thrusts_of(e, **most).front().force;
+  for (auto next = most + 1; next != pushing.end(); ++next)
+    if (const double force = thrusts_of(e, **next).front().force; force > greatest && !alike(force, greatest)) {
+      most = next;
+      greatest = force;
+    }
+  std::rotate(pushing.begin(), most, most + 1);
   return pushing;
 }
 

@@ -187,8 +187,8 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
                           range_unit(range).after_blank());
   const std::vector<const Sheet*> of_model = pushing_sheets(e.assembly), standing = pushing_sheets(e);
   if (of_model.size() > 1) detail += "; of " + of_model.front()->name;
-  if (!standing.empty() && standing.front() == of_model.front() && !e.rings.empty())
-    detail += "; " + place_of_range(e, *standing.front(), range);
+  if (std::ranges::find(standing, of_model.front()) != standing.end() && !e.rings.empty())
+    detail += "; " + place_of_range(e, *of_model.front(), range);
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
     if (const auto tension = net_hoop_tension(e, least(range)))

@@ -256,13 +256,13 @@ TEST(Chain, RefusesWhatDoesNotFitTheMasonry) {
   Chain rod;
   rod.type = Chain::Type::rods;
   rod.height = 6.0;
-  expect_refused(barrel(rod), "geometry.chains[0].height = 6: the masonry reaches from 0 to ");
+  expect_refused(barrel(rod), "geometry.chains[0].height = 6: must lie between 0 and ");
   rod.height = 1.5;
   rod.at = {5.0};
   expect_refused(barrel(rod), "geometry.chains[0].at = 5: the barrel is 4 m long");
   Chain high;
   high.height = 40.0;
-  expect_refused(octagon(high), "geometry.chains[0].height = 40: the masonry reaches from 0 to ");
+  expect_refused(octagon(high), "geometry.chains[0].height = 40: must lie between 0 and ");
   Chain fine;
   fine.height = 5.0;
   fine.links = 1000;

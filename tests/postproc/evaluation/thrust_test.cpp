@@ -123,9 +123,13 @@ TEST(Thrust, IsThatOfWhatStands) {
 // Heads that meet in a mitre lean on each other: neither member stands on the other.
 TEST(Thrust, CountsNoMitre) {
   Evaluation e = half_arches();
-  e.last.joints.wrenches.push_back(pushing(2, 3, 1.8, -3.0));
+  JointWrench& joint = e.last.joints.wrenches.emplace_back(pushing(2, 3, 1.8, -3.0));
+  const Vec3 level = joint.patch.plane.normal;
+  EXPECT_EQ(outward_thrust(e), 10.0) << "a springer of another arch beside it";
+  joint.patch.plane.normal = Vec3(3, 0, 4) / 5.0;
   EXPECT_EQ(outward_thrust(e), 9.0) << "a rib under the springing";
-  e.last.joints.wrenches.back().kind = JointKind::head;
+  joint.patch.plane.normal = level;
+  joint.kind = JointKind::head;
   EXPECT_EQ(outward_thrust(e), 10.0);
 }
 
