@@ -222,7 +222,12 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
     for (size_t v = first_vertex; v < assembly->vertices.size(); ++v)
       assembly->vertices[v] = shell.affine->image(assembly->vertices[v]);
   const double gap = options.imperfections ? options.imperfections->gap : 0.0;
-  cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, gap, assembly);
+  const auto bed_under = [&](const Part& part, int ring) {
+    const int row = (part.ring - grid.ring_of(0)) * surface.rows_per_ring;
+    return points.bed_plane((ring - grid.ring_of(0)) * surface.rows_per_ring, row, part.slice);
+  };
+  cut_bodies(bodies_of(shell, storeys), start, options.support_width, options.density, gap,
+             surface.flat_rings && surface.webs == 0 ? bed_under : BedUnder(), assembly);
   for (size_t b = start.block; b < assembly->blocks.size(); ++b)
     if (assembly->blocks[b].fixed) assembly->blocks[b].member = first_member;
   place(shell, first_vertex, first_face, assembly);

@@ -8,12 +8,15 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
 #include "generators/stereotomy/convex_clip.hpp"
 #include "generators/stereotomy/internal_faces.hpp"
+#include "generators/stereotomy/piece_courses.hpp"
 #include "generators/stereotomy/support.hpp"
 
 namespace cupola {
@@ -28,14 +31,15 @@ struct Cell {
   int block = 0;
   int side = 0;  ///< of the joints that part its block: pieces on different sides are different blocks
   bool is_changed = false;
-  bool is_rest = false;  ///< of a block too small to stay one
+  bool is_rest = false;                   ///< of a block too small to stay one
+  int first_course = 0, last_course = 0;  ///< that it occupies
 };
 
 /// The work on one member.
 class Carving {
  public:
-  Carving(const MemberStart& start, double gap, Assembly* assembly)
-      : start_(start), assembly_(assembly), gap_(gap) {
+  Carving(const MemberStart& start, BedUnder bed_under, double gap, Assembly* assembly)
+      : start_(start), bed_under_(std::move(bed_under)), assembly_(assembly), gap_(gap) {
     Eigen::AlignedBox3d box;
     for (size_t p = start.part; p < assembly->parts.size(); ++p) {
       const Part& part = assembly->parts[p];
@@ -44,8 +48,13 @@ class Carving {
         for (const int v : face.vertices) box.extend(assembly->vertices[v]);
     }
     rounding_ = 1e-12 * box.diagonal().norm();
-    for (size_t b = start.block; b < assembly->blocks.size(); ++b) volumes_.push_back(0.0);
-    for (const Cell& cell : cells_) volumes_[cell.block - start.block] += volume_of(*assembly, cell.piece);
+    volumes_.assign(assembly->blocks.size() - start.block, 0.0);
+    slices_.assign(volumes_.size(), -1);
+    for (const Cell& cell : cells_) {
+      const size_t block = cell.block - start.block;
+      volumes_[block] += volume_of(*assembly, cell.piece);
+      if (slices_[block] < 0) slices_[block] = cell.part.slice;
+    }
   }
 
   /// Takes bodies from all pieces; the faces of stones that lie on them.
@@ -109,15 +118,24 @@ class Carving {
     std::ranges::sort(touched_);
     touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
     for (size_t i = 0; i < cells_.size(); ++i) {
-      of_block_[cells_[i].block].push_back(i);
-      of_ring_[assembly_->blocks[cells_[i].block].ring].push_back(i);
+      Cell& cell = cells_[i];
+      const Block& laid = assembly_->blocks[cell.block];
+      std::tie(cell.first_course, cell.last_course) =
+          courses_of(*assembly_, cell.piece, cell.part, laid, bed_under_, 10.0 * rounding_ + gap_);
+      of_block_[cell.block].push_back(i);
+      of_ring_[laid.ring].push_back(i);
+      most_courses_ = std::max(most_courses_, laid.num_rings);
     }
     for (const int block : touched_) separate(block);
     join_rests();
     drop_idle_supports();
+    const std::map<int, Extent> extents = extents_of_blocks();
     std::vector<Block> blocks(assembly_->blocks.begin(),
                               assembly_->blocks.begin() + static_cast<std::ptrdiff_t>(start_.block));
-    std::ranges::stable_sort(cells_, {}, [&](const Cell& c) { return std::pair(origin(c.block), c.block); });
+    std::ranges::stable_sort(cells_, {}, [&](const Cell& c) {
+      const Extent& extent = extents.at(c.block);
+      return std::tuple(extent.place, extent.is_moved, c.block);
+    });
     assembly_->parts.resize(start_.part);
     const int first_face = start_face_;
     assembly_->face_kinds.resize(first_face);
@@ -128,6 +146,8 @@ class Carving {
       if (cell.block != before) {
         Block block = assembly_->blocks[origin(cell.block)];
         block.truncated = block.truncated || (cell.is_changed && !block.fixed);
+        block.ring = extents.at(cell.block).first;
+        block.num_rings = extents.at(cell.block).last - block.ring + 1;
         const bool follows = !blocks.empty() && blocks.back().ring == block.ring && !blocks.back().fixed;
         block.slot = block.fixed ? block.slot : follows ? blocks.back().slot + 1 : 0;
         blocks.push_back(block);
@@ -135,6 +155,7 @@ class Carving {
       }
       Part part = cell.part;
       part.block = static_cast<int>(blocks.size()) - 1;
+      part.ring = cell.first_course;
       part.face_start = assembly_->num_faces();
       part.num_faces = 0;
       assembly_->parts.push_back(part);
@@ -214,6 +235,41 @@ class Carving {
     return sum;
   }
 
+  /// Courses of the pieces of a block, and its place in their order.
+  struct Extent {
+    int first = std::numeric_limits<int>::max(), last = -1;
+    int slice = 0;          ///< in the first course
+    int place = 0;          ///< the block as laid from which it was separated, or behind which it stands
+    bool is_moved = false;  ///< it begins in another course than the block from which it was separated
+  };
+
+  std::map<int, Extent> extents_of_blocks() const {
+    std::map<int, Extent> extents;
+    for (const Cell& cell : cells_) {
+      Extent& extent = extents[cell.block];
+      if (cell.first_course < extent.first) extent.slice = cell.part.slice;
+      extent.first = std::min(extent.first, cell.first_course);
+      extent.last = std::max(extent.last, cell.last_course);
+    }
+    for (auto& [block, extent] : extents) {
+      extent.place = origin(block);
+      extent.is_moved = assembly_->blocks[extent.place].ring != extent.first;
+      if (extent.is_moved) extent.place = block_before(extent.first, extent.slice);
+    }
+    return extents;
+  }
+  /// The last block as laid that does not stand behind a slice of a course.
+  int block_before(int course, int slice) const {
+    int before = static_cast<int>(start_.block);
+    for (size_t i = 0; i < slices_.size(); ++i) {
+      const int number = static_cast<int>(start_.block + i);
+      const Block& block = assembly_->blocks[number];
+      const bool is_before = block.ring < course || block.slot == 0 || slices_[i] <= slice;
+      if (!block.fixed && block.ring <= course && is_before) before = number;
+    }
+    return before;
+  }
+
   /// Gives the pieces that do not touch the first ones numbers of new blocks.
   void separate(int block) {
     const std::vector<size_t> cells = cells_of(block);  // a copy: they move
@@ -268,7 +324,7 @@ class Carving {
   }
 
   void join_rests() {
-    constexpr double kLeast = 0.1;  // of the block as laid
+    constexpr double kLeast = 0.1 * (1.0 - 1e-6);  // of the block as laid; not less by rounding alone
     std::vector<int> rests;
     for (const auto& [block, cells] : of_block_) {
       const int laid = origin(block);
@@ -297,9 +353,12 @@ class Carving {
   bool join(int block) {
     const Block& laid = assembly_->blocks[origin(block)];
     const std::vector<size_t> own = cells_of(block);
+    std::vector<int> courses{laid.ring, laid.ring - 1};  // in which its neighbours begin
+    for (int above = 1; above <= laid.num_rings; ++above) courses.push_back(laid.ring + above);
+    for (int below = 2; below <= most_courses_; ++below) courses.push_back(laid.ring - below);
     std::optional<int> widest;
     double width = 0.0;
-    for (const int ring : {laid.ring, laid.ring - 1, laid.ring + 1}) {
+    for (const int ring : courses) {
       const auto course = of_ring_.find(ring);
       if (course == of_ring_.end()) continue;
       for (const size_t k : course->second) {
@@ -327,12 +386,15 @@ class Carving {
   }
 
   MemberStart start_;
+  BedUnder bed_under_;
   Assembly* assembly_;
   double gap_ = 0.0;                                       // m, of the joints between blocks
   double rounding_ = 0.0;                                  // m
   std::vector<Cell> cells_;                                // by block
   std::map<int, std::vector<size_t>> of_block_, of_ring_;  // cells
   std::vector<double> volumes_;                            // m3, of the blocks as laid
+  int most_courses_ = 1;                                   // of a block as laid
+  std::vector<int> slices_;                                // first ones of the blocks as laid
   std::vector<int> touched_;                               // blocks as laid
   std::vector<int> separated_;                             // origins of the blocks numbered behind those laid
   std::vector<int> added_;                                 // these numbers
@@ -358,13 +420,13 @@ void add_support(const Cut& cut, const std::vector<std::vector<Vec3>>& faces, do
 }  // namespace
 
 void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, double support_width,
-                double density, double gap, Assembly* assembly) {
+                double density, double gap, BedUnder bed_under, Assembly* assembly) {
   if (bodies.empty()) return;
   if (!assembly->vertex_layers.empty()) {
     assembly->vertex_layers.resize(assembly->vertices.size(), -1);  // corners of supports
     assembly->vertex_depths.resize(assembly->vertices.size(), 0.0);
   }
-  Carving carving(start, gap, assembly);
+  Carving carving(start, std::move(bed_under), gap, assembly);
   std::vector<std::vector<std::vector<Vec3>>> faces(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
     const auto& [cut, taken, key, from_supports] = bodies[i];

@@ -5,6 +5,7 @@
 
 #include "assembly/case/geometry.hpp"
 #include "assembly/model/assembly.hpp"
+#include "generators/stereotomy/piece_courses.hpp"
 
 namespace cupola {
 
@@ -29,10 +30,11 @@ struct CutBody {
 /// what was cut joins the block of its course, or else of a neighbouring one, with which it shares the widest
 /// face, across a gap of up to `gap` (m). Behind the faces of a cut `as: held` stands a fixed block,
 /// `support_width` (m) deep; a plane `as: joint` takes nothing and parts the blocks that it meets. What is
-/// left of a support on which no stone stands, across such a gap, is dropped.
+/// left of a support on which no stone stands, across such a gap, is dropped. Courses of blocks and parts are
+/// those that are left of them.
 ///
 /// Throws InputError that begins with the key of a cut that takes or parts nothing, or takes all blocks.
 void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, double support_width,
-                double density, double gap, Assembly* assembly);
+                double density, double gap, BedUnder bed_under, Assembly* assembly);
 
 }  // namespace cupola

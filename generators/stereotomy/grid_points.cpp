@@ -91,6 +91,14 @@ std::vector<double> GridPoints::cuts_at_supports() const {
   return cuts;
 }
 
+Plane GridPoints::bed_plane(int bed, int row, int slice) const {
+  const SurfaceMap& surface = grid_.surface;
+  const double b = bed + bed_noise_[bed], a = grid_.abscissa(row, slice);
+  const Vec3 foot = surface.intrados(b, a), out = surface.extrados(b, a) - foot;
+  const Vec3 normal = out.cross(surface.intrados(b, grid_.abscissa(row, slice + 1)) - foot).normalized();
+  return {normal, normal.dot(foot)};
+}
+
 Plane GridPoints::head_plane(int row, int top, int cut, double shift) const {
   const SurfaceMap& surface = grid_.surface;
   const int column = grid_.wrap(row, cut);

@@ -47,6 +47,8 @@ class GridPoints {
   bool bulges_along_rising_diagonal(int row, int cut) const;
   /// The cuts of the first course, moved by the noise: the supports meet its blocks there.
   std::vector<double> cuts_at_supports() const;
+  /// The plane of a bed over a slice of a row, of a surface on which it is one; its normal points upwards.
+  Plane bed_plane(int bed, int row, int slice) const;
   /// Appends the shared vertices; call once, before the first block. If the shell has wythes, the layers of
   /// all vertices are counted from `first_layer`.
   void make_shared(int first_layer, Assembly* assembly);

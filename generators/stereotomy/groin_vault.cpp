@@ -336,7 +336,7 @@ void cross_webs(const Storey& shell, const MemberStart& start, const CutOptions&
     const Cut cut = groin_cut(shell.surface.webs, side);
     bodies.push_back({cut, {body_of(cut)}, shell.key});
   }
-  cut_bodies(bodies, start, options.support_width, options.density, 0.0, assembly);
+  cut_bodies(bodies, start, options.support_width, options.density, 0.0, {}, assembly);
   if (2 * shell.surface.springers >= shell.surface.num_rings())
     throw InputError(fmt::format(
         "{}.surface.plan.springers = {}: must be below {}, the courses from the supports to the crown",

@@ -109,6 +109,66 @@ TEST(CutBodies, SmallRestsJoinTheirNeighbours) {
   EXPECT_GT(report.smallest_block, 0.2 * 1.0 * 0.5 * kThickness);
 }
 
+// Planes at 0.6 m and 3.4 m leave 0.1 m of the stones of 1 m in odd courses, but for rounding: not less than a
+// tenth, so that all twelve parted stones are two.
+TEST(CutBodies, ATenthOfAStoneStaysWhateverTheRounding) {
+  for (const double scale : {1.0, 7.3, 1e-3}) {
+    std::vector<Cut> cuts;
+    for (const double y : {0.6, 3.4}) cuts.push_back(plane({0, scale * y, 0}, {0, 1, 0}, Cut::As::joint));
+    Case c = wall(cuts);
+    VaultSurface& surface = std::get<VaultSurface>(c.geometry.surface);
+    for (double* length :
+         {&surface.plan.length, &surface.profile.height, &surface.profile.span, &surface.thickness})
+      *length *= scale;
+    EXPECT_EQ(std::ranges::count(cut_assembly(c).blocks, false, &Block::fixed), 3 * 4 + 3 * 5 + 12) << scale;
+  }
+}
+
+/// A wall of uprights of three courses between flat stones, with a window whose top is z (m). An upright from
+/// 0.5 m to 2 m high and 1/3 m wide ends at its right side; the window takes what is below z of it.
+Assembly above_a_window(double z) {
+  Case c;
+  c.geometry.surface = WallSurface{.length = 4.0, .height = 3.0, .thickness = 0.5};
+  HerringboneBond bond;
+  bond.rings = 6;
+  bond.blocks_per_ring = 4;
+  bond.spirals = 1;
+  bond.rings_per_vertical = bond.verticals_per_block = 3;
+  bond.path = HerringboneBond::Path::meridian;
+  c.geometry.bond = bond;
+  Cut window = prism({0.6, 1.3, 1.3, 0.6}, {0.9, 0.9, z, z});
+  window.axis = Cut::Axis::y;
+  c.geometry.cuts = {window};
+  return generate(c);
+}
+
+// 0.1 m of the upright of 1.5 m touch stones that begin two courses above its own first one.
+TEST(CutBodies, ARestOfAnUprightJoinsANeighbourOfAnyOfItsCourses) {
+  for (const Block& block : above_a_window(2.4).blocks) EXPECT_GT(block.volume, 0.1 * 0.25);
+}
+
+// 0.3 m of it are a stone in the course from 2 m to 2.5 m, between its neighbours there; all blocks have the
+// courses that their parts have.
+TEST(CutBodies, BlocksLieInTheCoursesThatTheCutsLeave) {
+  const Assembly assembly = above_a_window(2.2);
+  const auto top = std::ranges::find_if(assembly.blocks, [](const Block& block) {
+    return !block.fixed && std::abs(block.centroid.x() - 2.5 / 3) < 1e-12 && block.centroid.z() > 2.2;
+  });
+  ASSERT_NE(top, assembly.blocks.end());
+  EXPECT_NEAR(top->centroid.z(), 2.35, 1e-12);
+  EXPECT_EQ(std::pair(top->ring, top->num_rings), std::pair(4, 1));
+  EXPECT_EQ(std::pair((top - 1)->ring, (top + 1)->ring), std::pair(4, 4));
+  EXPECT_LT((top - 1)->centroid.x(), top->centroid.x());
+  EXPECT_GT((top + 1)->centroid.x(), top->centroid.x());
+  EXPECT_EQ(top->slot, (top - 1)->slot + 1);
+  Case level = wall({plane({0, 0, 1.04}, {0, 0, 1})});  // 4 cm of the third course join the second
+  for (const Assembly& cut : {assembly, generate(level)})
+    for (const Part& part : cut.parts) {
+      const Block& block = cut.blocks[part.block];
+      EXPECT_TRUE(part.ring >= block.ring && part.ring < block.ring + block.num_rings);
+    }
+}
+
 // The stones lie off the supports, and the rests off their neighbours, by up to half a gap and a gap.
 TEST(CutBodies, GapsChangeNeitherSupportsNorBlocks) {
   for (const auto profile : {Profile::Kind::straight, Profile::Kind::semicircle}) {
