@@ -75,6 +75,13 @@ class Laying {
   }
 
  private:
+  /// Where a block lies that was laid on an open surface.
+  struct Extent {
+    int whole_width;  ///< letters, as drawn
+    int first_ring, last_ring, first_slice, last_slice;
+    int width() const { return last_slice - first_slice + 1; }
+  };
+
   int kind_at(int ring, int slice) const { return drawing_.block_of(slice - offset_, first_row_ + ring, 0); }
   int wrap(int slice) const { return grid_.closed ? (slice + num_letters_) % num_letters_ : slice; }
 
@@ -95,7 +102,11 @@ class Laying {
     BondBlock block{.truncated = static_cast<int>(cells.size()) < whole.cells, .letter = whole.letter};
     if (is_upright(whole)) block.kind = BlockKind::herringbone;
     pattern_.blocks.push_back(block);
-    whole_width_.push_back(whole.width);
+    Extent extent{whole.width, ring, ring, slice, slice};
+    for (const auto& [r, s] : cells)
+      extent = {whole.width, std::min(extent.first_ring, r), std::max(extent.last_ring, r),
+                std::min(extent.first_slice, s), std::max(extent.last_slice, s)};
+    extents_.push_back(extent);
   }
 
   bool is_upright(const DrawnBlock& whole) const {
@@ -116,16 +127,24 @@ class Laying {
     constexpr double kLeast = 0.25;  // of the width of the whole block
     for (const int step : {1, -1})
       for (int ring = 0; ring < grid_.num_rings; ++ring) {
-        const int end = step > 0 ? 0 : num_letters_ - 1, piece = pattern_.at(ring, end);
+        const int piece = pattern_.at(ring, step > 0 ? 0 : num_letters_ - 1);
         if (piece == kVoid || !pattern_.blocks[static_cast<size_t>(piece)].truncated) continue;
-        int width = 0;
-        while (width < num_letters_ && pattern_.at(ring, end + step * width) == piece) ++width;
-        if (width >= kLeast * whole_width_[static_cast<size_t>(piece)] || width == num_letters_) continue;
-        const int neighbour = pattern_.at(ring, end + step * width);
-        if (neighbour == kVoid) continue;
-        for (int i = 0; i < width; ++i) pattern_.at(ring, end + step * i) = neighbour;
+        const Extent& extent = extents_[static_cast<size_t>(piece)];
+        if (extent.width() < kLeast * extent.whole_width) give_away(piece, step);
       }
     separate_rests(grid_.closed, cells_per_block(pattern_), &pattern_);
+  }
+
+  /// Gives the cells of a piece, course by course, to the block behind them.
+  void give_away(int piece, int step) {
+    const Extent& extent = extents_[static_cast<size_t>(piece)];
+    const int reach = step > 0 ? extent.last_slice : num_letters_ - 1 - extent.first_slice;
+    for (int ring = extent.first_ring; ring <= extent.last_ring; ++ring)
+      for (int i = reach; i >= 0; --i) {
+        const int slice = step > 0 ? i : num_letters_ - 1 - i, behind = slice + step;
+        if (behind < 0 || behind >= num_letters_ || pattern_.at(ring, slice) != piece) continue;
+        if (pattern_.at(ring, behind) != kVoid) pattern_.at(ring, slice) = pattern_.at(ring, behind);
+      }
   }
 
   const DrawnBond& bond_;
@@ -133,7 +152,7 @@ class Laying {
   BondDrawing drawing_;
   int num_letters_, offset_, first_row_;
   BondPattern pattern_;
-  std::vector<int> whole_width_;  // letters, of each block as drawn
+  std::vector<Extent> extents_;
 };
 
 /// Each course by itself, with its own number of letters.

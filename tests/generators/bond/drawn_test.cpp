@@ -160,6 +160,15 @@ TEST(Drawn, JoinsANarrowEndToItsNeighbour) {
       << "one letter of four";
 }
 
+// An L of five letters and one above: a wall of four letters keeps five of them. One letter of six, in two
+// courses, joins its neighbours.
+TEST(Drawn, MeasuresTheEndsOfAnLOverAllItsCourses) {
+  EXPECT_EQ(drawn_bond(drawn({"gggggh", "accccd", "aaaaab"}), wall(4, 3)).block_of,
+            (std::vector<int>{0, 0, 0, 0, 0, 1, 1, 1, 2, 2, 2, 2}));
+  EXPECT_EQ(drawn_bond(drawn({"gggggggh", "aaadddcc", "aaaaaabb"}), wall(9, 2)).block_of,
+            (std::vector<int>{0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 2, 2, 2, 3, 3, 3}));
+}
+
 TEST(Drawn, RefinesBlocksInTheSameBond) {
   DrawnBond bond = drawn({"ccddddcc", "aaaabbbb"});
   bond.refine = 2;
