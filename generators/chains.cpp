@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/surface/azimuth.hpp"
 
 namespace cupola {
 namespace {
@@ -78,6 +79,12 @@ class Level {
     if (chain.course >= 0) bed_ = (chain.course + 0.5) * shell.refinement * shell.surface.rows_per_ring;
   }
   Vec3 point(double abscissa) const { return at(bed(abscissa), abscissa, chain_.place); }
+  /// The abscissa whose azimuth lies ahead of that of another by an angle (rad).
+  double abscissa_ahead(double from, double angle) const {
+    const auto point = [&](double abscissa) { return own(bed(abscissa), abscissa, chain_.place); };
+    const Vec3 start = point(from);
+    return abscissa_at(point, std::atan2(start.y(), start.x()) + angle, from + angle);
+  }
   int block(double abscissa, const BlockFinder& blocks) const {
     return block_on(bed(abscissa), abscissa, blocks);
   }
@@ -201,7 +208,7 @@ std::vector<Anchor> polygon(const Level& level, const Chain& chain, const Storey
   }
   const double first = surface.corners.empty() ? 0.0 : surface.corners.front();
   for (int i = 0; i < chain.links; ++i) {
-    const double abscissa = first + i * surface.extent / chain.links;
+    const double abscissa = level.abscissa_ahead(first, i * surface.extent / chain.links);
     anchors.push_back({level.block(abscissa, blocks), level.point(abscissa)});
   }
   return anchors;

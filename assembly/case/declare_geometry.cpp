@@ -162,8 +162,10 @@ void declare_geometry(Section& s, Geometry& geometry) {
 
 void declare_imperfections(Section& s, Imperfections& imperfections) {
   s.number("gap", imperfections.gap, {.unit = "m", .min = 0}, "open the joints by random amounts up to this");
-  s.number("noise", imperfections.noise, {.unit = "m", .min = 0},
-           "move faces and corners by random amounts up to this; joints stay closed");
+  s.number(
+      "noise", imperfections.noise, {.unit = "m", .min = 0},
+      "move each bed, head and skin by random amounts up to this, a corner by those of the three that meet "
+      "there; joints stay closed");
   for (const auto& [key, value] : {std::pair("gap", imperfections.gap), {"noise", imperfections.noise}})
     s.expect({key, value, "m", 0.0, 0.05, "", kMillimetres});
   s.integer("seed", imperfections.seed, {.min = 0}, "seed of the random numbers");

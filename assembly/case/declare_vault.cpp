@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -186,6 +187,10 @@ void declare_vault(Section& s, VaultSurface& vault) {
   s.rule((vault.beds == VaultSurface::Beds::given) == !vault.bed_angles_deg.empty(), "bed_angles_deg",
          "belongs to beds: given, and only there");
   s.rule(vault.bed_angles_deg.size() != 1, "bed_angles_deg", "must be at least 2 angles");
+  s.rule(
+      !vault.plan.closed() || vault.bed_angles_deg.empty() || std::abs(vault.bed_angles_deg.front()) < 90.0,
+      "bed_angles_deg",
+      "must begin above -90 and below 90 deg on a closed plan: the first bed lies on a ring");
   s.choice("courses", vault.courses,
            "what is equal from course to course: length along the drawn line, height, or turn of its normal");
   s.choice("line", vault.line, "what the profile draws");

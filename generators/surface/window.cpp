@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "generators/surface/azimuth.hpp"
 #include "generators/surface/make_surface.hpp"
 #include "generators/surface/secant.hpp"
 
@@ -59,8 +60,12 @@ SurfaceMap window_surface(const Surface& surface, std::vector<Thickness> wythes,
   map.first_row_held = true;
   map.shell_volume.reset();
   map.num_rows = courses + 1;
-  const double from = window.from_deg * pi / 180.0;
-  map.extent = (window.to_deg - window.from_deg) * pi / 180.0;
+  const auto end_at = [&](double azimuth_deg) {
+    const double azimuth = azimuth_deg * pi / 180.0;
+    return abscissa_at([&](double a) { return whole.intrados(under_last, a); }, azimuth, azimuth);
+  };
+  const double from = end_at(window.from_deg);
+  map.extent = end_at(window.to_deg) - from;
   map.first_corner = -from;
   map.corners.clear();
   const double rounding = 1e-9 * map.sail_width;

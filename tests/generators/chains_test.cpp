@@ -104,6 +104,26 @@ TEST(Chain, OfAHeightIsLevelAndHasItsCornersAtThoseOfTheVault) {
   EXPECT_NEAR(assembly.chains[0].height, 7.7, 1e-9);
 }
 
+// On plane beds abscissae are shares of the sides, and an affine map moves azimuths: 18.43 and 26.57 degrees
+// in place of 30.
+TEST(Chain, IsEqualInAzimuthOnPlaneBedsAndAfterAnAffineMap) {
+  Chain chain;
+  chain.course = 2;
+  chain.links = 12;
+  for (const double scale : {1.0, 1.5}) {
+    Case c = octagon(chain);
+    auto& vault = std::get<OctagonalVault>(c.geometry.surface);
+    vault.sails = 4;
+    vault.construction = OctagonalVault::Construction::planar_radial;
+    if (scale != 1.0) c.geometry.affine = Affine{.scale = {scale, 1.0, 1.0}};
+    const Assembly assembly = generate(c);
+    ASSERT_EQ(assembly.ties.size(), 12u);
+    for (int i = 0; i < 12; ++i)
+      EXPECT_NEAR(std::remainder(azimuth(assembly.ties[i].point_a) - i * pi / 6.0, 2.0 * pi), 0.0, 1e-12)
+          << scale << " " << i;
+  }
+}
+
 TEST(Chain, SlackLengthensAndPrestressShortensItsBars) {
   Chain chain;
   chain.course = 0;

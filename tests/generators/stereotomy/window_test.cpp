@@ -100,6 +100,33 @@ TEST(Window, BricksOfTheDomeHaveTheVolumesOfTheClosedForm) {
   EXPECT_GT(cut, 0);
 }
 
+// They lay from 7.1 to 16 degrees where beds are plane, along which abscissae are shares of the sides.
+TEST(Window, ReachesFromAzimuthToAzimuth) {
+  using Construction = OctagonalVault::Construction;
+  for (const Construction construction :
+       {Construction::circular, Construction::planar_radial, Construction::planar_horizontal}) {
+    OctagonalVault vault = std::get<OctagonalVault>(octagon());
+    vault.sails = 4;
+    vault.construction = construction;
+    Case c = window_case(vault, RunningBond{5, 8, 2});
+    c.geometry.window->ends = Window::Ends::free;
+    c.geometry.window->from_deg = 10.0;
+    c.geometry.window->to_deg = 20.0;
+    const Assembly bricks = cut_assembly(c);
+    double low = pi, high = -pi;
+    for (const Part& part : bricks.parts) {
+      if (bricks.blocks[part.block].fixed) continue;
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
+        for (const Vec3& p : face_points(bricks, f)) {
+          low = std::min(low, std::atan2(p.y(), p.x()));
+          high = std::max(high, std::atan2(p.y(), p.x()));
+        }
+    }
+    EXPECT_NEAR(low, pi / 18.0, 1e-12);  // rounding
+    EXPECT_NEAR(high, pi / 9.0, 1e-12);
+  }
+}
+
 std::map<BlockKind, int> count_kinds(const Assembly& assembly) {
   std::map<BlockKind, int> count;
   for (const Block& block : assembly.blocks) ++count[block.kind];
