@@ -329,7 +329,7 @@ void ContactDetector::append_contacts(int a, int b, AnchoredContacts* contacts) 
   for (const JointPatch& patch :
        perturbed_gjk_ ? perturb_blocks(*perturbed_gjk_, model_, a, b, pose_ab, options_.margin, reach)
                       : clip_blocks(model_, a, b, pose_ab, narrow))
-    append_patch(model_, patch, pose_ab, narrow.margin, options_.sampling, nominal_area, contacts);
+    append_patch(model_, patch, pose_ab, options_.margin, reach, options_.sampling, nominal_area, contacts);
 }
 
 void ContactDetector::set_gaps(std::span<const double> gaps) {

@@ -35,6 +35,7 @@ struct Contact {
   Vec3 normal = Vec3::UnitZ();  ///< unit, from a to b
   double gap = 0.0;             ///< m, (point_b - point_a) . normal, positive when apart
   double area = 0.0;            ///< m2, tributary area
+  double closed_share = 1.0;    ///< of that of a face: beyond it, faces stand open by more than the margin
   int multiplicity = 1;         ///< contact points merged into this one: 2 in a plane scene
 };
 
@@ -47,6 +48,11 @@ struct Patch {
   double area = 0.0;          ///< m2
   int course = 0;             ///< in stages of construction: with which the younger block is laid
 };
+
+/// m2, of a contact point: what strengths and stresses refer to. Edges and corners have no area.
+inline double bearing_area(const Contact& contact, const Patch& patch) {
+  return patch.area > 0.0 ? contact.closed_share * contact.area : 0.0;
+}
 
 /// All contacts of one configuration, sorted by block pair and identity.
 struct ContactSet {

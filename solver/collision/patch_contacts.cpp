@@ -23,6 +23,29 @@ ContactAnchor anchor_of(const LiftedPoint& point, const CornerNormal& corner,
           0.0};
 }
 
+/// m2, of the part of a patch whose gap, a linear function of the place, is at most `margin`.
+double closed_area(const JointPatch& patch, const std::vector<Vec2>& outline, double margin) {
+  std::vector<Vec2> closed;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec2 &start = outline[i], &end = outline[(i + 1) % outline.size()];
+    const double from = margin - lift_to_faces(patch, start).gap, to = margin - lift_to_faces(patch, end).gap;
+    if (from >= 0.0) closed.push_back(start);
+    if ((from >= 0.0) != (to >= 0.0)) closed.push_back(start + from / (from - to) * (end - start));
+  }
+  return polygon_area(closed);
+}
+
+/// Reduces the points from `first` on, of a patch that opens by more than `margin`, to what is closed of it.
+void set_closed_share(const JointPatch& patch, const std::vector<Vec2>& outline, double margin,
+                      std::size_t first, std::vector<Contact>* points) {
+  const auto is_closed = [&](const Vec2& x) { return lift_to_faces(patch, x).gap <= margin; };
+  if (std::ranges::all_of(outline, is_closed)) return;
+  double area = 0.0;
+  for (std::size_t i = first; i < points->size(); ++i) area += (*points)[i].area;
+  const double share = std::min(1.0, closed_area(patch, outline, margin) / area);
+  for (std::size_t i = first; i < points->size(); ++i) (*points)[i].closed_share = share;
+}
+
 /// Identifies a patch among those of two blocks.
 auto patch_key(const ContactId& id) {
   return std::tuple(id.part_a, id.part_b, id.face_a, id.face_b);
@@ -196,15 +219,16 @@ void append(std::span<AnchoredContacts> chunks, AnchoredContacts* contacts) {
 }
 
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
-                  double margin, const PatchSampling& sampling, double nominal_area,
+                  double margin, double reach, const PatchSampling& sampling, double nominal_area,
                   AnchoredContacts* contacts) {
   const int block_a = model.parts[patch.part_a].block;
   const int block_b = model.parts[patch.part_b].block;
   CUPOLA_ASSERT(block_a < block_b);
   CUPOLA_ASSERT(patch.has_area() || patch.touching.size() == patch.corners.size());
   const int patch_index = static_cast<int>(contacts->set.patches.size());
+  const std::size_t first = contacts->set.points.size();
   const auto append = [&](const LiftedPoint& point, const CornerNormal& normal, double area, int corner) {
-    if (point.gap > margin) return;
+    if (point.gap > margin + reach) return;
     Contact contact;
     contact.id = {patch.part_a, patch.part_b, patch.face_a, patch.face_b, corner};
     contact.block_a = block_a;
@@ -225,6 +249,7 @@ void append_patch(const CollisionModel& model, const JointPatch& patch, const Ei
       append(lift_to_faces(patch, point.position),
              point.corner < 0 ? CornerNormal{patch.normal, 0.5} : patch.corners[point.corner].normal,
              point.area, point.corner);
+    set_closed_share(patch, outline, margin, first, &contacts->set.points);
   } else {
     const double area = patch.point_area > 0.0 ? patch.point_area : nominal_area;
     shape.area = patch.point_area * static_cast<double>(patch.corners.size());

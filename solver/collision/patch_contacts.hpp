@@ -28,11 +28,12 @@ struct AnchoredContacts {
 /// Appends the contacts and patches of all `chunks`, and leaves those empty.
 void append(std::span<AnchoredContacts> chunks, AnchoredContacts* contacts);
 
-/// Appends a patch and those of its contact points whose gap is within the margin; `pose_ab` as for the
-/// patch. An edge or vertex contact has no area: each of its points gets `nominal_area` (m2) unless the patch
-/// has a `point_area`. World positions are left to move_contacts().
+/// Appends a patch and those of its contact points whose gap is within `margin` and `reach` (m) together;
+/// `pose_ab` as for the patch. Their closed share is that of the faces within `margin`. An edge or
+/// vertex contact has no area: each of its points gets `nominal_area` (m2) unless the patch has a
+/// `point_area`. World positions are left to move_contacts().
 void append_patch(const CollisionModel& model, const JointPatch& patch, const Eigen::Isometry3d& pose_ab,
-                  double margin, const PatchSampling& sampling, double nominal_area,
+                  double margin, double reach, const PatchSampling& sampling, double nominal_area,
                   AnchoredContacts* contacts);
 
 /// Contacts and patches to update when some blocks move.

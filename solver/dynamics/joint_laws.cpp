@@ -162,7 +162,8 @@ void JointTable::set_mortar(std::vector<RingJoints> by_course) {
   mortar_ = std::move(by_course);
 }
 
-JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area, int multiplicity) const {
+JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double area, int multiplicity,
+                         double closed_share) const {
   const JointClass kind = joint_class(assembly, patch, has_pieces_);
   const std::vector<ClassLaw>& rings = laws_[static_cast<int>(kind)];
   CUPOLA_ASSERT(!rings.empty() && multiplicity >= 1);
@@ -183,7 +184,8 @@ JointLaw JointTable::law(const Assembly& assembly, const Patch& patch, double ar
   }
   if (!strength_.is_constant()) law.strength = times(law.strength, strength_.mean_over(patch.polygon));
   law.crack = crack_lengths(law, of_class.energy, failure_);
-  if (has_strength_) law.strength = patch.area > 0.0 ? times(law.strength, area) : JointStrength{};
+  const double bearing = patch.area > 0.0 ? closed_share * area : 0.0;
+  if (has_strength_) law.strength = bearing > 0.0 ? times(law.strength, bearing) : JointStrength{};
   return law;
 }
 

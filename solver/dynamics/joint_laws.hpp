@@ -57,8 +57,10 @@ class JointTable {
 
   bool has_strength() const { return has_strength_; }
   /// Law of a contact point of the patch with tributary area `area` (m2) and the given multiplicity (see
-  /// Contact), at full friction. Blocks that touch at an edge or a corner have no strength.
-  JointLaw law(const Assembly& assembly, const Patch& patch, double area, int multiplicity = 1) const;
+  /// Contact), at full friction; its strength is that of the closed share. Blocks that touch at an edge or a
+  /// corner have none.
+  JointLaw law(const Assembly& assembly, const Patch& patch, double area, int multiplicity = 1,
+               double closed_share = 1.0) const;
 
  private:
   std::array<std::vector<ClassLaw>, kNumJointClasses> laws_;  // by class, then ring

@@ -165,8 +165,8 @@ void integrate_positions(const Model& model, double h, double time_advance, cons
 
 JointLaw joint_law(const Model& model, const ContactSet& contacts, const Contact& contact, double time) {
   CUPOLA_ASSERT(contact.patch >= 0 && contact.patch < static_cast<int>(contacts.patches.size()));
-  JointLaw law =
-      model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area, contact.multiplicity);
+  JointLaw law = model.joints.law(*model.assembly, contacts.patches[contact.patch], contact.area,
+                                  contact.multiplicity, contact.closed_share);
   law.mu *= factor_at(model.friction_time, time);
   return law;
 }

@@ -37,7 +37,8 @@ void visit(Archive& archive, ContactId& x) {
 }
 template <class Archive>
 void visit(Archive& archive, Contact& x) {
-  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area, x.multiplicity);
+  archive(x.id, x.block_a, x.block_b, x.patch, x.point_a, x.point_b, x.normal, x.gap, x.area, x.closed_share,
+          x.multiplicity);
 }
 template <class Archive>
 void visit(Archive& archive, Patch& x) {

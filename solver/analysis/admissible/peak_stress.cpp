@@ -8,9 +8,9 @@
 namespace cupola {
 namespace {
 
-/// Edges and corners have no area, so that no stress limits them.
+/// No stress limits edges and corners.
 double area_of(const Contact& point, const RigidScene& rigid) {
-  return rigid.contacts.patches[point.patch].area > 0.0 ? point.area : 0.0;
+  return bearing_area(point, rigid.contacts.patches[point.patch]);
 }
 
 /// gamma_n,i <= p A_i with the multiplier p; the joints' own compressive strength does not count.

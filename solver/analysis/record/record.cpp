@@ -172,7 +172,7 @@ Frame make_frame(const Model& model, const State& state, const ContactSet& conta
     table.force.push_back(force);
     table.normal_force.push_back(normal_force);
     table.friction_use.push_back(limit > 0.0 ? tangential_force / limit : 0.0);
-    table.area.push_back(patch.area > 0.0 ? contact.area : 0.0);
+    table.area.push_back(bearing_area(contact, patch));
     table.slip.push_back(memories.of(i).plastic_slip);
     if (!model.joints.has_strength()) continue;
     table.friction_limit.push_back(std::max(0.0, limit));
@@ -244,7 +244,7 @@ void append_parted(const Model& model, const ContactSet& built, const ContactSet
     table->normal.push_back(contact.normal);
     table->gap.push_back(contact.gap);
     table->force.push_back(Vec3::Zero());
-    table->area.push_back(patch.area > 0.0 ? contact.area : 0.0);
+    table->area.push_back(bearing_area(contact, patch));
     for (std::vector<double>* zero : {&table->normal_force, &table->friction_use, &table->law_violation})
       zero->push_back(0.0);
     table->slip.push_back(kNone);

@@ -32,6 +32,25 @@ std::vector<Pose> turned_box(const Assembly& scene, const Quaterniond& q, double
   return poses;
 }
 
+// A cube turned about an edge on a floor: strength counts the part of the faces within the margin of 1 cm,
+// and no more than the points that are left stand for. The last angle is beyond that of faces in contact.
+TEST(EdgeContact, OpenFacesBearOnlyWithinTheMargin) {
+  const Assembly scene = box_on_floor(Vec3(1, 1, 1));
+  for (const double angle : {0.0, 0.009, 0.02, 0.05, 0.15, 0.3, 0.36}) {
+    DetectionOptions options;
+    options.sampling = {PatchPoints::quadrature, 8};
+    const ContactSet set = ContactDetector(scene, options)
+                               .update(turned_box(scene, Quaterniond(AngleAxisd(angle, Vec3::UnitY())), 0.0));
+    double bearing = 0.0;
+    for (const Contact& contact : set.points) bearing += bearing_area(contact, set.patches[contact.patch]);
+    // Gap over the place on the plane midway between both faces.
+    const double closed = angle > 0.0 ? std::min(1.0, 0.01 / (2.0 * std::tan(0.5 * angle))) : 1.0;
+    const double expected = angle < 0.35 ? closed * std::cos(0.5 * angle) : 0.0;
+    EXPECT_LE(bearing, expected + 1e-12) << angle;  // rounding
+    EXPECT_GE(bearing, 0.7 * expected) << angle;    // an eighth of the face has no points
+  }
+}
+
 TEST(EdgeContact, EdgeOnAFloorGivesTwoPoints) {
   const Assembly scene = box_on_floor(Vec3(1, 2, 1));
   for (const double angle : {0.36, kPi / 6, kPi / 4, 1.2}) {
