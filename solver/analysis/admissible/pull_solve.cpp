@@ -7,6 +7,8 @@
 
 #include "assembly/base/error.hpp"
 #include "solver/conic/conic_bounds.hpp"
+#include "solver/conic/exact_equilibrium.hpp"
+#include "solver/conic/motion_proof.hpp"
 #include "solver/conic/solve_conic.hpp"
 
 namespace cupola {
@@ -21,13 +23,19 @@ bool balances(const PullSolve& solve) {
   state.gamma = admissible_state(solve);
   state.v = solve.solution.v;
   const ConicBounds bounds = conic_bounds(solve.scene.problem, state);
-  return bounds.imbalance <= std::max(kRounding, -kShare * solve.pull) && bounds.cone_violation <= kRounding;
+  if (bounds.imbalance <= std::max(kRounding, -kShare * solve.pull) && bounds.cone_violation <= kRounding)
+    return true;
+  // Cones that begin far from the forces, at a pull of cohesion over a small friction, leave more rounding.
+  return proves_equilibrium(solve.scene.problem.contacts, solve.scene.problem.load, state.gamma);
 }
 
-/// No state without a pull exists whose forces are up to a multiple of those found, if any were.
+/// No state without a pull exists whose forces are up to a multiple of those found, if any were, or none at
+/// all.
 bool proves_pull(const PullSolve& solve) {
-  return !solve.solution.gamma(Eigen::seq(0, Eigen::last, 3)).isZero(0.0) &&
-         conic_bounds(solve.problem, solve.solution).lower > 0.0;
+  const ConicProblem& rigid = solve.scene.problem;
+  return (!solve.solution.gamma(Eigen::seq(0, Eigen::last, 3)).isZero(0.0) &&
+          conic_bounds(solve.problem, solve.solution).lower > 0.0) ||
+         proves_motion(rigid.contacts, rigid.load, solve.solution.v);
 }
 
 /// Without pull columns that change an equilibrium or a strength, as between parallel walls, alpha is as small

@@ -66,6 +66,21 @@ TEST(DirectLimitEnds, ATiltBeyondTheVertical) {
   expect_critical(mortar, cube_at_a_wall(), tilt_of_the_cube(-0.02 * 1.3));
 }
 
+// A pillar presses with 40 kPa on mortar that bears 50 kPa or 30 kPa: it stands at every friction or at none.
+// At small ones the cones begin at a pull of a hundred and more times its weight.
+TEST(DirectLimitEnds, CrushingIsDecidedAtSmallFrictions) {
+  const Assembly pillar = testing::box_on_floor({1, 1, 2}, 2e4 / kG);
+  for (const double low : {0.0, 0.005, 0.02, 0.2})
+    for (const double strength : {3e4, 5e4}) {
+      Case scene = limit_case(Parameter::friction, low, 2.0, 0.4);
+      scene.joints.compliance.per = Compliance::Per::area;
+      scene.contact.subdivide = 2;
+      scene.joints.strength = {.tension = 2e4, .cohesion = 4e4, .compression = strength};
+      const Summary summary = run(scene, pillar);
+      EXPECT_EQ(summary.status, strength > 4e4 ? Status::stable : Status::moving) << summary.message;
+    }
+}
+
 // A cube hangs from mortar, which bears tension up to cohesion over friction.
 TEST(DirectLimitEnds, MoreFrictionLeavesMortarLessTension) {
   const Assembly hung = testing::make_boxes({{.center = {0, 0, 1.5}, .size = {1, 1, 1}, .fixed = true},
