@@ -192,9 +192,13 @@ std::string how_sure_of_motion(const Evaluation& e) {
   const Analysis& analysis = e.scene.analysis;
   if (s.status == Status::unconverged) return "";
   if (s.analysis == AnalysisType::static_) {
-    return proven(s.status)
-               ? "It is proven that no forces within the limits of the joints balance the loads. The proof "
-                 "holds for every friction law: they differ only in how joints slide."
+    if (proven(s.status))
+      return "It is proven that no forces within the limits of the joints balance the loads. The proof "
+             "holds for every friction law: they differ only in how joints slide.";
+    return analysis.friction_law == FrictionLaw::associated
+               ? "A motion was found. That no forces balance the loads is not proven: in joints that jam, "
+                 "ties "
+                 "or restraints they might be too large for the accuracy of the solver."
                : "A motion was found, but other contact forces might balance the loads; a range analysis "
                  "(analysis.type: range) shows whether any do.";
   }

@@ -43,6 +43,67 @@ long double largest_dissipation(const ContactProblem& p, const VecX& v) {
   return sum;
 }
 
+/// 1 for the blocks at rest in a motion, 0 for those that move (nb).
+std::vector<char> blocks_at_rest(const ContactProblem& p, const VecX& v) {
+  constexpr double kAtRest = 1e-6;  // of the fastest; certificates of the conic solver are exact to 1e-9
+  VecX speed(p.num_blocks());
+  for (int k = 0; k < p.num_blocks(); ++k) {
+    const Eigen::Vector<double, 6> of_block = v.segment<6>(6 * k);
+    speed[k] = std::sqrt(of_block.dot(p.M[k] * of_block) / p.M[k](0, 0));
+  }
+  std::vector<char> rest(static_cast<size_t>(p.num_blocks()));
+  for (int k = 0; k < p.num_blocks(); ++k) rest[k] = speed[k] <= kAtRest * speed.maxCoeff() ? 1 : 0;
+  return rest;
+}
+
+/// The contacts of the blocks that are not held, to those that are as to fixed ones.
+ContactProblem beside_held(const ContactProblem& p, const std::vector<char>& held) {
+  ContactProblem rest;
+  rest.M = p.M;
+  rest.v_star = VecX::Zero(p.v_star.size());
+  rest.plane = p.plane;
+  std::vector<double> mu;
+  const auto free_of = [&](int k) {
+    return k == ContactProblem::kFixed || held[k] != 0 ? ContactProblem::kFixed : k;
+  };
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    const int a = free_of(p.block_a[i]), b = free_of(p.block_b[i]);
+    if (a == ContactProblem::kFixed && b == ContactProblem::kFixed) continue;
+    rest.block_a.push_back(a);
+    rest.block_b.push_back(b);
+    rest.D_a.push_back(p.D_a[i]);
+    rest.D_b.push_back(p.D_b[i]);
+    mu.push_back(p.mu[i]);
+    if (!p.strength.empty()) rest.strength.push_back(p.strength[i]);
+  }
+  rest.mu = Eigen::Map<const VecX>(mu.data(), static_cast<Eigen::Index>(mu.size()));
+  return rest;
+}
+
+/// The scene without its objective.
+ConicProblem without_objective(const ContactProblem& contacts, const VecX& load) {
+  ConicProblem problem;
+  problem.contacts = contacts;
+  problem.load = load;
+  problem.cost = VecX::Zero(3 * contacts.num_contacts());
+  problem.load_columns = MatX(load.size(), 0);
+  problem.rows = MatX(problem.cost.size(), 0);
+  return problem;
+}
+
+/// v and so much of a motion that opens every contact of `problem` that all its s lie in Y*.
+VecX opened(const ContactProblem& p, const VecX& v, const VecX& opening) {
+  const VecX inside = distance_inside(p, v), gained = distance_inside(p, opening);
+  constexpr double kMargin = 2.0;  // covers the rounding of the sum
+  double share = 0.0;
+  for (int i = 0; i < p.num_contacts(); ++i) {
+    if (crushes(p, i)) continue;
+    const double rounding = (1.0 + p.mu[i]) * rounding_of_velocity(p, i, v).maxCoeff();
+    share = std::max(share, kMargin * (rounding - inside[i]) / gained[i]);
+  }
+  return v + share * opening;
+}
+
 }  // namespace
 
 bool proves_motion(const ContactProblem& contacts, const VecX& load, const VecX& v) {
@@ -61,13 +122,8 @@ bool proves_motion(const ContactProblem& contacts, const VecX& load, const VecX&
   return power - rounding * size > (1.0L + kOfTerms) * dissipated;
 }
 
-MotionProof::MotionProof(const ContactProblem& contacts, const VecX& load) {
-  problem_.contacts = contacts;
-  problem_.load = load;
-  problem_.cost = VecX::Zero(3 * contacts.num_contacts());
-  problem_.load_columns = MatX(load.size(), 0);
-  problem_.rows = MatX(problem_.cost.size(), 0);
-}
+MotionProof::MotionProof(const ContactProblem& contacts, const VecX& load)
+    : problem_(without_objective(contacts, load)) {}
 
 const VecX& MotionProof::opening() {
   if (!opening_) opening_ = opening_motion(problem_);
@@ -76,19 +132,20 @@ const VecX& MotionProof::opening() {
 
 std::optional<VecX> MotionProof::next_to(const VecX& v) {
   const ContactProblem& p = problem_.contacts;
-  if (proves_motion(p, problem_.load, v)) return v;
-  if (opening().size() == 0) return std::nullopt;
-  const VecX inside = distance_inside(p, v), gained = distance_inside(p, opening());
-  constexpr double kMargin = 2.0;  // covers the rounding of the sum
-  double share = 0.0;
-  for (int i = 0; i < p.num_contacts(); ++i) {
-    if (crushes(p, i)) continue;
-    const double rounding = (1.0 + p.mu[i]) * rounding_of_velocity(p, i, v).maxCoeff();
-    share = std::max(share, kMargin * (rounding - inside[i]) / gained[i]);
-  }
-  VecX opened = v + share * opening();
-  if (!proves_motion(p, problem_.load, opened)) return std::nullopt;
-  return opened;
+  const auto proof = [&](VecX motion) {
+    return proves_motion(p, problem_.load, motion) ? std::optional(std::move(motion)) : std::nullopt;
+  };
+  if (auto own = proof(v)) return own;
+  if (opening().size() > 0) return proof(opened(p, v, opening()));
+  // Joints that jam, ties and restraints cannot open. Those of blocks at rest need not.
+  const std::vector<char> rest = blocks_at_rest(p, v);
+  VecX beside = v;
+  for (int k = 0; k < p.num_blocks(); ++k)
+    if (rest[k] != 0) beside.segment<6>(6 * k).setZero();
+  const ConicProblem moving = without_objective(beside_held(p, rest), problem_.load);
+  if (moving.contacts.num_contacts() == p.num_contacts()) return std::nullopt;
+  const VecX apart = opening_motion(moving);
+  return apart.size() > 0 ? proof(opened(moving.contacts, beside, apart)) : std::nullopt;
 }
 
 MotionProof::Answer MotionProof::search() {

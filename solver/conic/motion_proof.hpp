@@ -22,7 +22,7 @@ class MotionProof {
   MotionProof(const ContactProblem& contacts, const VecX& load);
 
   /// v, or v and so much of a motion that opens every contact that all s lie in Y*, if that is a proof
-  /// (opening_motion.hpp).
+  /// (opening_motion.hpp). Where none opens all, blocks at rest in v stay so exactly, and the others open.
   std::optional<VecX> next_to(const VecX& v);
 
   enum class Answer {

@@ -302,6 +302,24 @@ TEST(MotionProof, SlidingBlockIsProvenToMoveAboveItsFriction) {
   }
 }
 
+// A block that jams between two walls cannot open its joints. It stays at rest, while the one on it slides.
+TEST(MotionProof, JointsAtRestNeedNotOpen) {
+  const Scene scene(testing::make_case(0.5, 1e-9, 0.01),
+                    testing::make_boxes({{.center = {-1, 0, 0.5}, .fixed = true},
+                                         {.center = {1, 0, 0.5}, .fixed = true},
+                                         {.center = {0, 0, 0.5}},
+                                         {.center = {0, 0, 1.25}, .size = {0.5, 0.5, 0.5}}}));
+  const StepOptions step{.h = 1.0, .time_advance = 0.0};
+  const ContactProblem p =
+      build_step_problem(scene.model, scene.rest, scene.contacts, scene.memories, step).problem;
+  for (const double push : {0.49, 0.51}) {
+    VecX load = applied_forces(scene.model, scene.rest, 0.0);
+    load[6] = -push * load[8];
+    EXPECT_EQ(MotionProof(p, load).search(),
+              push > 0.5 ? MotionProof::Answer::moves : MotionProof::Answer::admissible);
+  }
+}
+
 // Tension resists the opening beyond the dilatancy of the slip: a joint that slides and dilates dissipates by
 // its cohesion alone.
 TEST(MotionProof, SlidingDissipatesByCohesionAlone) {
