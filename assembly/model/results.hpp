@@ -159,10 +159,10 @@ struct CriticalValue {
 };
 
 /// How the search for one end of a range ended. `unbounded`: a self-stress without load (a jammed wedge)
-/// changes the quantity without limit.
-enum class RangeOutcome { bounded, unbounded, unconverged };
+/// changes the quantity without limit. `undefined`: of a ratio whose denominator is zero in every state.
+enum class RangeOutcome { bounded, unbounded, undefined, unconverged };
 constexpr auto enum_names(RangeOutcome) {
-  return std::array{"bounded", "unbounded", "unconverged"};
+  return std::array{"bounded", "unbounded", "undefined", "unconverged"};
 }
 
 /// One end of the range of a quantity over all admissible states.

@@ -33,6 +33,8 @@ std::string with_unit(double value, const ForceRange& range) {
 
 /// Where the quantity certainly lies; "" if neither end is bounded.
 std::string certain_clause(const ForceRange& range) {
+  if (range.min.outcome == RangeOutcome::undefined)
+    return "is undefined: in every state it is a ratio to nothing";
   const std::string whatever = " for every history of the building that the friction admits";
   const bool low = is_bounded(range.min), high = is_bounded(range.max);
   if (low && high) {
@@ -55,6 +57,7 @@ std::string end_clause(const RangeEnd& end, bool is_min, const ForceRange& range
                        range.unit == "N" ? "self-stresses that need no load, as in a jammed wedge,"
                                          : "states in which its denominator vanishes",
                        is_min ? "lower" : "raise");
+  if (end.outcome == RangeOutcome::undefined) return "";
   if (!is_bounded(end)) {
     std::string text = fmt::format("has an unknown {}, because the search did not converge", name);
     if (end.value) text += fmt::format(" beyond a state with {}", with_unit(*end.value, range));

@@ -63,7 +63,7 @@ std::string describe(const std::vector<ForceRange>& ranges) {
   const ForceRange& r = ranges.front();
   const auto end = [&r](const RangeEnd& e) {
     if (e.outcome == RangeOutcome::unbounded) return std::string("without limit");
-    if (!e.value) return std::string("unknown");
+    if (!e.value) return std::string(e.outcome == RangeOutcome::undefined ? "undefined" : "unknown");
     return r.unit == "N" ? readable_force(*e.value) : fmt::format("{:.5g} {}", *e.value, r.unit);
   };
   std::string text =

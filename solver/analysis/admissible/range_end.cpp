@@ -109,12 +109,13 @@ RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective
   }
   found.v = std::move(solution.v);
   found.gamma = linear.of_sector ? sector->whole_forces(solution.gamma) : std::move(solution.gamma);
-  // Infeasible: a ratio whose denominator is zero in every state.
-  if (solution.outcome == ConicOutcome::unbounded) {
+  if (solution.outcome == ConicOutcome::infeasible && objective.over) {
+    found.end.outcome = RangeOutcome::undefined;
+    found.gamma.resize(0);  // it shows no state
+  } else if (solution.outcome == ConicOutcome::unbounded) {
     found.end.outcome = RangeOutcome::unbounded;
     found.gamma *= scene.model.block_weight / largest_normal_force(found.gamma);
-  } else if (solution.outcome != ConicOutcome::infeasible && objective.over &&
-             solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0) {
+  } else if (objective.over && solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0) {
     found.gamma /= solution.multipliers[0];
   }
   return found;

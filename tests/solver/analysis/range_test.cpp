@@ -273,6 +273,18 @@ TEST(Range, OutwardOfAWallIsThatOfItsBarrel) {
   EXPECT_THROW(ranges_of(scene, box), InputError);
 }
 
+TEST(Range, RatiosToNothingAreUndefined) {
+  Case scene = range_case(
+      0.5, {joint(0, 1, JointForce::Component::normal), joint(0, 1, JointForce::Component::eccentricity)});
+  scene.loads.gravity.setZero();
+  const Summary summary = ranges_of(scene, testing::box_on_floor({1, 1, 1}));
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  ASSERT_EQ(summary.ranges.size(), 2u);
+  EXPECT_EQ(summary.ranges[0].max.outcome, RangeOutcome::bounded);
+  EXPECT_EQ(summary.ranges[1].min.outcome, RangeOutcome::undefined);
+  EXPECT_EQ(summary.ranges[1].max.outcome, RangeOutcome::undefined);
+}
+
 TEST(Range, WithoutAdmissibleState) {
   Case scene = range_case(0.2, {joint(0, 1, JointForce::Component::normal)});
   scene.loads.gravity = testing::tilted_gravity(0.5);
