@@ -204,10 +204,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
       summary.warnings.push_back(warning);
   }
   if (solution.outcome != StaticOutcome::equilibrium && !symmetry && !wrench_error)
-    if (const auto parts = solve_by_parts(model, rest, contacts, memories, options)) {
-      add_parts(*parts, options, &summary, sinks);
-      stop_what_stands(*parts, model, &frame);
-    }
+    if (const auto parts = solve_by_parts(model, rest, contacts, memories, options))
+      add_parts(*parts, model, options, &summary, &frame, sinks);
   solution.step = {};  // for a large model as large as the frame, whose writing takes as much memory again
   sinks.frame(frame);
   return summary;

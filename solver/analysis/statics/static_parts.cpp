@@ -61,46 +61,9 @@ Status status_of(const ScenePart& part, const StaticSolution& solution, const St
   return summary.status;
 }
 
-}  // namespace
-
-std::optional<StaticParts> solve_by_parts(const Model& model, const State& start, const ContactSet& contacts,
-                                          const ContactMemories& memories, const StaticOptions& options) {
-  std::vector<OnePart> parts = parts_of(model, islands_of(model, contacts));
-  if (parts.size() < 2 || parts.size() > kMostParts) return std::nullopt;
-  StaticParts out;
-  out.stands.resize(static_cast<size_t>(model.num_free()));
-  for (OnePart& part : parts) {
-    const ScenePart scene = scene_of(model, start, contacts, memories, part.chosen);
-    const StaticSolution solution = solve_part(scene, options);
-    part.verdict.status = status_of(scene, solution, options);
-    part.stands = solution.outcome == StaticOutcome::equilibrium;
-    for (size_t i = 0; i < out.stands.size() && part.stands; ++i) out.stands[i] |= part.chosen[i];
-    out.verdicts.push_back(part.verdict);
-  }
-  if (!parts.front().stands) return out;
-  out.standing = scene_of(model, start, contacts, memories, out.stands);
-  out.solution = solve_part(*out.standing, options);
-  if (out.solution.outcome != StaticOutcome::equilibrium) out.standing.reset();
-  return out;
-}
-
-void add_parts(const StaticParts& parts, const StaticOptions& options, Summary* summary,
-               const AnalysisSinks& sinks) {
-  const Status whole = summary->status;
-  const std::string message = summary->message;
-  summary->parts = parts.verdicts;
-  if (!parts.standing) return;
-  const ScenePart& standing = *parts.standing;
-  const Frame frame = static_frame(standing.model, standing.state, standing.contacts, standing.memories,
-                                   parts.solution, options);
-  summarize_static(parts.solution, frame, standing.model, options.tolerance, summary);
-  const int blocks = standing.model.num_free();
-  const std::string stands =
-      fmt::format("of {} those with {} stand: {}", counted(parts.verdicts.size(), "unconnected part"),
-                  counted(blocks, "block"), summary->message);
-  summary->status = whole;
-  summary->message = fmt::format("{}; the rest: {}", stands, message);
-  sinks.frame(frame);
+/// The larger, the more a verdict says that something falls.
+int falls(Status status) {
+  return status == Status::moving ? 2 : status == Status::moving_unproven ? 1 : 0;
 }
 
 void stop_what_stands(const StaticParts& parts, const Model& model, Frame* frame) {
@@ -109,6 +72,61 @@ void stop_what_stands(const StaticParts& parts, const Model& model, Frame* frame
     frame->blocks.velocity[model.free_blocks[i]].setZero();
     frame->blocks.angular_velocity[model.free_blocks[i]].setZero();
   }
+}
+
+}  // namespace
+
+std::optional<StaticParts> solve_by_parts(const Model& model, const State& start, const ContactSet& contacts,
+                                          const ContactMemories& memories, const StaticOptions& options) {
+  std::vector<OnePart> parts = parts_of(model, islands_of(model, contacts));
+  if (parts.size() < 2 || parts.size() > kMostParts) return std::nullopt;
+  StaticParts out;
+  out.stands.resize(static_cast<size_t>(model.num_free()));
+  Status worst = Status::stable;
+  for (OnePart& part : parts) {
+    ScenePart scene = scene_of(model, start, contacts, memories, part.chosen);
+    StaticSolution solution = solve_part(scene, options);
+    part.verdict.status = status_of(scene, solution, options);
+    part.stands = solution.outcome == StaticOutcome::equilibrium;
+    for (size_t i = 0; i < out.stands.size() && part.stands; ++i) out.stands[i] |= part.chosen[i];
+    out.verdicts.push_back(part.verdict);
+    if (falls(part.verdict.status) <= falls(worst)) continue;
+    worst = part.verdict.status;
+    out.falling = std::move(scene);
+    out.motion = std::move(solution);
+  }
+  if (!parts.front().stands) return out;
+  out.standing = scene_of(model, start, contacts, memories, out.stands);
+  out.solution = solve_part(*out.standing, options);
+  if (out.solution.outcome != StaticOutcome::equilibrium) out.standing.reset();
+  return out;
+}
+
+void add_parts(const StaticParts& parts, const Model& model, const StaticOptions& options, Summary* summary,
+               Frame* frame, const AnalysisSinks& sinks) {
+  summary->parts = parts.verdicts;
+  if (parts.falling && falls(status_of(parts.motion.outcome, parts.motion.proven)) > falls(summary->status)) {
+    const ScenePart& part = *parts.falling;
+    *frame = static_frame(part.model, part.state, part.contacts, part.memories, parts.motion, options);
+    summarize_accuracy(parts.motion, options.tolerance, summary);
+    summary->status = status_of(parts.motion.outcome, parts.motion.proven);
+    summary->message = parts.motion.message;
+  }
+  stop_what_stands(parts, model, frame);
+  if (!parts.standing) return;
+  const Status whole = summary->status;
+  const std::string message = summary->message;
+  const ScenePart& standing = *parts.standing;
+  const Frame of_standing = static_frame(standing.model, standing.state, standing.contacts, standing.memories,
+                                         parts.solution, options);
+  summarize_static(parts.solution, of_standing, standing.model, options.tolerance, summary);
+  const int blocks = standing.model.num_free();
+  const std::string stands =
+      fmt::format("of {} those with {} stand: {}", counted(parts.verdicts.size(), "unconnected part"),
+                  counted(blocks, "block"), summary->message);
+  summary->status = whole;
+  summary->message = fmt::format("{}; the rest: {}", stands, message);
+  sinks.frame(of_standing);
 }
 
 }  // namespace cupola

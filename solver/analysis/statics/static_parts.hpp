@@ -17,6 +17,9 @@ struct StaticParts {
   /// All parts that stand, if the largest does, and their equilibrium.
   std::optional<ScenePart> standing;
   StaticSolution solution;
+  /// The first part of the worst verdict, if it falls.
+  std::optional<ScenePart> falling;
+  StaticSolution motion;
 };
 
 /// Solves every part by itself, then those that stand together. None where contacts or ties connect all
@@ -24,12 +27,11 @@ struct StaticParts {
 std::optional<StaticParts> solve_by_parts(const Model& model, const State& start, const ContactSet& contacts,
                                           const ContactMemories& memories, const StaticOptions& options);
 
-/// Writes the verdicts into the summary, whose status becomes that of the worst part. If the largest part
-/// stands, the summary describes the equilibrium of all that do, and its frame is written.
-void add_parts(const StaticParts& parts, const StaticOptions& options, Summary* summary,
-               const AnalysisSinks& sinks);
-
-/// Stops what stands in the frame of a motion of the whole: the solve shows the elastic displacements there.
-void stop_what_stands(const StaticParts& parts, const Model& model, Frame* frame);
+/// Writes the verdicts into the summary. If the motion of a part is better proven than that of the whole, the
+/// verdict and `frame` become those of this part, which decide for the whole. If the largest part stands,
+/// the summary describes the equilibrium of all that do, and its frame is written. In `frame` they stop: the
+/// solve of the whole shows their elastic displacements.
+void add_parts(const StaticParts& parts, const Model& model, const StaticOptions& options, Summary* summary,
+               Frame* frame, const AnalysisSinks& sinks);
 
 }  // namespace cupola

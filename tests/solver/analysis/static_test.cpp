@@ -7,6 +7,7 @@
 
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/static_parts.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 #include "tests/solver/analysis/dense_statics.hpp"
@@ -396,6 +397,28 @@ TEST(StaticParts, WhatStandsDoesNotMove) {
   EXPECT_NEAR(moving.velocity[1].norm(), 1.0, 1e-12);
   EXPECT_EQ(moving.velocity[2], Vec3::Zero());
   EXPECT_EQ(moving.angular_velocity[2], Vec3::Zero());
+}
+
+// What stands may press so hard that a solve of the whole does not see what falls beside it.
+TEST(StaticParts, APartThatFallsDecides) {
+  const Assembly blocks = testing::make_boxes({{.center = {0, 0, -0.5}, .size = {9, 2, 1}, .fixed = true},
+                                               {.center = {-2, 0, 2}, .size = {1, 1, 4}},
+                                               {.center = {2, 0, 0.5}}});
+  Case input = make_case(0.7, 1e-6, 0.01);
+  input.loads.gravity = {0.3 * kG, 0, -kG};
+  const Scene scene(input, blocks);
+  const StaticOptions options;
+  const auto parts = solve_by_parts(scene.model, scene.rest, scene.contacts, scene.memories, options);
+  ASSERT_TRUE(parts);
+  Summary summary;
+  summary.status = Status::unconverged;
+  Frame frame;
+  AnalysisSinks sinks;
+  sinks.frame = [](const Frame&) {};
+  add_parts(*parts, scene.model, options, &summary, &frame, sinks);
+  EXPECT_EQ(summary.status, Status::moving) << summary.message;
+  EXPECT_EQ(frame.role, FrameRole::mechanism);
+  EXPECT_NEAR(frame.blocks.velocity[1].norm(), 1.0, 1e-12);
 }
 
 }  // namespace
