@@ -25,6 +25,7 @@
 #include "solver/analysis/analysis.hpp"
 #include "solver/analysis/analysis_table.hpp"
 #include "solver/analysis/record/record.hpp"
+#include "solver/analysis/statics/analysis_options.hpp"
 #include "solver/collision/geometry_warnings.hpp"
 #include "solver/collision/patch_file.hpp"
 #include "solver/dynamics/joints_on_supports.hpp"
@@ -269,7 +270,9 @@ ExitCode solve_case(SolveRequest request) {
       make_sinks(request, checkpoint_path, stop, lock, &writer, &run, &progress, &last_line);
   const std::string patches_path = (std::filesystem::path(request.output_folder) / "patches.vtp").string();
   sinks.as_built = [&](const ContactSet& contacts) {
-    warnings.add(joint_warnings(request.scene, assembly, contacts));
+    const Analysis& analysis = request.scene.analysis;
+    const bool rigid = analysis.type == AnalysisType::limit && uses_direct_limit(analysis);
+    warnings.add(joint_warnings(request.scene, assembly, contacts, rigid));
     write_patches(patches_path, contacts, assembly_hash);
   };
   const IterationLog iterations(sinks.log);

@@ -50,23 +50,20 @@ void expect_compliance(const Section& s, const std::string& key, double complian
                  : "a stiffness, or in mm/N? Compliance is its reciprocal, such as 1e-8 m/N"});
 }
 
-/// For a case that says nothing: small against any block, and far above rounding.
-constexpr double kRelativeCompliance = 1e-4;
-
 /// True if the section is left out or relative.
 bool declare_relative_compliance(Section& s, Compliance& compliance) {
   const NumberRule rule{.above = 0};
   std::optional<double> relative;
   s.optional_number(
-      "relative", relative, rule, fmt::format("{:g} if the section is left out", kRelativeCompliance),
+      "relative", relative, rule, fmt::format("{:g} if the section is left out", Compliance::kRelative),
       "closing of a joint under the mean weight of a block on the square of its size, over that size; "
       "stands alone, per area");
   if (!relative && !s.is_empty()) return false;
   for (const char* key : {"per", "normal", "tangential"})
     s.refuse(key, "`relative` stands alone: leave out either it or per, normal and tangential");
-  if (!relative) s.settled_number("relative", kRelativeCompliance, rule);
+  if (!relative) s.settled_number("relative", Compliance::kRelative, rule);
   const double unknown = std::numeric_limits<double>::quiet_NaN();  // until the blocks are
-  compliance = {unknown, unknown, Compliance::Per::area, relative.value_or(kRelativeCompliance)};
+  compliance = {unknown, unknown, Compliance::Per::area, relative.value_or(Compliance::kRelative)};
   s.expect({"relative", *compliance.relative, "", 1e-12, 0.01,
             "too small for double precision to matter? Compliances of 0 make joints rigid",
             "in percent? It is the closing of a joint over the size of a block"});

@@ -26,6 +26,8 @@ struct Compliance {
   static Compliance default_per(Per per) {
     return per == Per::point ? Compliance{} : Compliance{1e-10, kTangential * 1e-10, per, {}};
   }
+  static constexpr double kRelative =
+      1e-4;  ///< of a case that gives none: small against any block, far above rounding
   static constexpr double kTangential = 2.4;  ///< over the normal compliance per area: 2 (1 + nu)
 };
 constexpr auto enum_names(Compliance::Per) {

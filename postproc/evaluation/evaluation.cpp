@@ -260,6 +260,10 @@ bool is_rigid(const Evaluation& e) {
   return is_limit(e) || !e.summary.ranges.empty();
 }
 
+bool has_default_stiffness(const Evaluation& e) {
+  return e.scene.joints.compliance.relative == Compliance::kRelative;
+}
+
 bool supports_have_not_moved(const Evaluation& e) {
   return e.last.frame.role == FrameRole::equilibrium &&
          std::ranges::any_of(e.scene.supports.moves, [](const SupportMove& move) {

@@ -109,6 +109,8 @@ bool supports_have_not_moved(const Evaluation& evaluation);
 
 /// True if joints are taken as rigid, in limits and ranges, so that their gaps are not the widths of cracks.
 bool is_rigid(const Evaluation& evaluation);
+/// The stiffness of the joints is that of a case which gives none.
+bool has_default_stiffness(const Evaluation& evaluation);
 
 /// True for a vault about the z axis, where azimuths are meaningful.
 bool is_vault(const Evaluation& evaluation);

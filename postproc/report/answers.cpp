@@ -275,11 +275,12 @@ std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   });
   const JointWrench& joint = e.last.joints.wrenches[widest.joint];
   return KeyNumber{kWidestCrack, length_text(widest.widest_gap),
-                   fmt::format("{}in the {}joint between blocks {} and {}; {} open{}", after_last_stage(e),
+                   fmt::format("{}in the {}joint between blocks {} and {}; {} open{}{}", after_last_stage(e),
                                joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
                                joint.block_a, joint.block_b,
                                counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
-                               text_of_cracks(e.cracks, cracks.size()))};
+                               text_of_cracks(e.cracks, cracks.size()),
+                               has_default_stiffness(e) ? "; by the default stiffness of the joints" : "")};
 }
 
 std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& report) {

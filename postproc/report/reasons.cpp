@@ -285,7 +285,8 @@ std::string certain_sentence(const Evaluation& e) {
   const std::optional<KeyNumber> crack = crack_answer(e);
   const std::string stiffness =
       !is_rigid(e) && (thrust_answer(e) || (crack && crack->value != "none"))
-          ? fmt::format(", and the stiffness of the joints{}, on which thrust and cracks depend",
+          ? fmt::format(", and the {}stiffness of the joints{}, on which thrust and cracks depend",
+                        has_default_stiffness(e) ? "default " : "",
                         e.last.frame.ties.size() > 0 ? " and ties" : "")
           : "";
   // That a motion came to rest proves no equilibrium.

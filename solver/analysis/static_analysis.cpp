@@ -195,7 +195,7 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   summary.unknowns /= scene.analysis.cyclic_sectors;
   summary.message += gaps_note(model, rest, contacts);
   if (summary.max_displacement_m)
-    summary.message += linearity_note(scene, assembly, *summary.max_displacement_m);
+    warn_of_large_displacement(scene, assembly, *summary.max_displacement_m, &summary.warnings);
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     const DirectionLimits limits = find_robustness(scene, assembly);
     summary.robustness = limits.least;

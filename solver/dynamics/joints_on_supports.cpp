@@ -95,7 +95,7 @@ OnSupports joints_on_supports(const Case& scene, const Assembly& assembly, const
       sum.rigid = true;
     else
       sum.stiffness += 1.0 / law.compliance_normal;
-    sum.area += contact.area;
+    sum.area += bearing_area(contact, contacts.patches[contact.patch]);
     sum.capacity += law.strength.compression;
   }
   sum.load = largest_load(scene, model);
@@ -176,9 +176,9 @@ std::vector<std::string> idle_groups(const Case& scene, const Assembly& assembly
 }  // namespace
 
 std::vector<std::string> joint_warnings(const Case& scene, const Assembly& assembly,
-                                        const ContactSet& contacts) {
+                                        const ContactSet& contacts, bool rigid) {
   const OnSupports joints = joints_on_supports(scene, assembly, contacts);
-  std::vector<std::string> warnings{soft_text(joints, assembly, scene.joints.compliance),
+  std::vector<std::string> warnings{rigid ? "" : soft_text(joints, assembly, scene.joints.compliance),
                                     unlimited_text(scene, assembly, contacts)};
   for (std::string& text : idle_groups(scene, assembly, contacts)) warnings.push_back(std::move(text));
   if (scene.joints.have_strength()) warnings.push_back(weak_text(joints));

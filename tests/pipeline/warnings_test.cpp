@@ -141,7 +141,8 @@ std::vector<std::string> all_warnings(const std::string& path,
   add(assembly.block_warnings);
   add(geometry_warnings(assembly, detection_options(scene)));
   add(joint_warnings(scene, assembly,
-                     ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly))));
+                     ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)),
+                     false));
   return warnings;
 }
 

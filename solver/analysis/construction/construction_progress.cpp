@@ -108,7 +108,7 @@ void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Ca
   if (ended && solved < total)
     summary->message += fmt::format("; the construction ends at stage {}, {} not reached", next - 1,
                                     counted(total - solved, "stage was", "stages were"));
-  summary->message += linearity_note(scene, assembly, largest_displacement);
+  warn_of_large_displacement(scene, assembly, largest_displacement, &summary->warnings);
   if (property == Least::none) return;
   const std::string name = to_string(property);
   summary->message +=

@@ -78,15 +78,16 @@ std::string gaps_note(const Model& model, const State& start, const ContactSet& 
                      counted(count, "contact point"), 1e3 * largest, count == 1 ? "is" : "are");
 }
 
-std::string linearity_note(const Case& scene, const Assembly& assembly, double displacement) {
+void warn_of_large_displacement(const Case& scene, const Assembly& assembly, double displacement,
+                                std::vector<std::string>* warnings) {
   constexpr double kSmall = 0.1;  // of the smallest free block
   const double smallest = smallest_block_size(assembly);
-  if (displacement <= kSmall * smallest) return "";
-  return fmt::format(
-      "; the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m, but "
+  if (displacement <= kSmall * smallest) return;
+  warnings->push_back(fmt::format(
+      "the largest displacement of {:.2g} m is not small compared with the smallest block of {:.2g} m, but "
       "forces are those of the geometry as built. {}",
       displacement, smallest,
-      scene.supports.moving() ? "A `path` follows supports that move" : "Check `joints.compliance`");
+      scene.supports.moving() ? "A `path` follows supports that move" : "Check `joints.compliance`"));
 }
 
 Frame static_frame(const Model& model, const State& start, const ContactSet& contacts,

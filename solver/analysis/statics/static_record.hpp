@@ -18,9 +18,9 @@ std::vector<double> static_violations(const ContactSet& contacts, const StaticSo
 /// `contact.margin`. Empty if there are none: what supports have opened is no gap of the drawing.
 std::string gaps_note(const Model& model, const State& start, const ContactSet& contacts);
 
-/// A clause for the message if a displacement (m) is large, because equilibrium is that of the geometry as
-/// built.
-std::string linearity_note(const Case& scene, const Assembly& assembly, double displacement);
+/// Warns if a displacement (m) is large, because equilibrium is that of the geometry as built.
+void warn_of_large_displacement(const Case& scene, const Assembly& assembly, double displacement,
+                                std::vector<std::string>* warnings);
 
 /// The frame of a static solve. Equilibrium: displacements h v, gaps after the displacement, velocities zero.
 /// Motion: no displacements, velocities scaled so that the fastest block moves at 1 m/s. Unconverged:

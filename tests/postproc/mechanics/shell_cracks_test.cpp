@@ -176,16 +176,21 @@ TEST(ShellCracks, BetweenLayersReachNoFace) {
 // Cracks and open joints are counted alike on the first screen: the hairline is in no crack.
 TEST(ShellCracks, TheFirstScreenTellsHairlinesFromCracks) {
   std::map<std::pair<int, int>, Gap> gaps = two_cracks();
-  const auto said = [&gaps] {
+  std::optional<double> relative;
+  const auto said = [&gaps, &relative] {
     Vault vault(gaps);
     Evaluation& e = vault.evaluation();
     e.last.frame.role = FrameRole::equilibrium;
     e.summary.status = Status::stable;
     e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
     e.cracks = vault.cracks();
+    e.scene.joints.compliance.relative = relative;
     return crack_answer(e).value().detail;
   };
   EXPECT_NE(said().find("; 6 joints are open, as 2 cracks over 1"), std::string::npos) << said();
+  EXPECT_EQ(said().find("default stiffness"), std::string::npos) << said();
+  relative = Compliance::kRelative;
+  EXPECT_NE(said().find("; by the default stiffness of the joints"), std::string::npos) << said();
   gaps[{3, 6}] = {7e-5, 7e-5};
   EXPECT_NE(said().find("; 7 joints are open, the widest 6 as 2 cracks over 1"), std::string::npos) << said();
 }

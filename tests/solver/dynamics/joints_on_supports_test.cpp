@@ -10,9 +10,10 @@
 namespace cupola::joints_on_supports_test {
 namespace {
 
-std::vector<std::string> warnings_of(const Case& scene, const Assembly& assembly) {
+std::vector<std::string> warnings_of(const Case& scene, const Assembly& assembly, bool rigid = false) {
   return joint_warnings(scene, assembly,
-                        ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)));
+                        ContactDetector(assembly, detection_options(scene)).update(initial_poses(assembly)),
+                        rigid);
 }
 
 Case per_area(double normal) {
@@ -32,6 +33,7 @@ TEST(SoftJoints, WarnWhereTheTopOfAStackSinksByAHundredthOfItsHeight) {
       "joints.compliance.normal = 1.9e-07 m3/N lets the model sink by about 0.021 m, 1 % of its height; "))
       << found[0];
   EXPECT_TRUE(warnings_of(per_area(0.0), stack).empty()) << "rigid joints";
+  EXPECT_TRUE(warnings_of(per_area(1.9e-7), stack, true).empty()) << "an analysis without compliance";
 }
 
 // Four contact points carry each cube.
