@@ -27,6 +27,8 @@ std::string with_capital(std::string text) {
 
 /// "0.2202 to 32.62 MN": what the search proves, with ∞ where there is no limit and ? where it did not end.
 KeyNumber range_number_of(const ForceRange& range) {
+  if (range.min.outcome == RangeOutcome::undefined)
+    return {with_capital(range_name(range)), "undefined", "in every state a ratio to nothing"};
   const auto end = [&range](const RangeEnd& e, double value) {
     const std::string text = std::isinf(value)   ? (value > 0 ? "∞" : "-∞")
                              : std::isnan(value) ? ""
