@@ -179,8 +179,8 @@ TEST(Construction, SaysThatDisplacementsAreLarge) {
     const Summary summary = build(level_case(sinks / (1000.0 * testing::kG), true), column).summary;
     ASSERT_EQ(summary.status, Status::stable) << summary.message;
     ASSERT_EQ(summary.warnings.size(), sinks > 0.1 ? 1u : 0u);
-    if (sinks > 0.1)
-      EXPECT_TRUE(summary.warnings[0].starts_with("the largest displacement of 0.2 m is not small"));
+    for (const std::string& warning : summary.warnings)
+      EXPECT_TRUE(warning.starts_with("the largest displacement of 0.2 m is not small")) << warning;
   }
 }
 
