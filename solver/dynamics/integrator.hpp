@@ -12,7 +12,7 @@ namespace cupola {
 ///     s+         = (end r+ + start r) / (end + start)
 ///
 /// where D and f are those of the configuration q + middle h v. Contacts that have just closed take an
-/// impulse p = h r+ as in implicit Euler, so that an impact does not enter s.
+/// impulse p = h r+ as in implicit Euler, so that no impact enters s; so do those that pass it on, after it.
 struct Integrator {
   double filtered, start, end;
   double v_start, v_end, a;

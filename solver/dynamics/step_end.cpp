@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "assembly/base/disjoint_sets.hpp"
 #include "assembly/base/error.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/time_step.hpp"
@@ -42,8 +43,8 @@ struct StepEnds {
 };
 
 /// What the generalized alpha method keeps of a contact, and the penetration that an impact leaves. `moved`:
-/// m, by the loads in a step from rest.
-void update_past(const Vec3& force_A, const StepEnds& ends, double moved, const StepOptions& options,
+/// m, by the loads in a step from rest. Returns whether the contact has met.
+bool update_past(const Vec3& force_A, const StepEnds& ends, double moved, const StepOptions& options,
                  ContactMemory* memory) {
   const double gap = ends.gap;
   const Integrator& scheme = options.integrator;
@@ -57,9 +58,36 @@ void update_past(const Vec3& force_A, const StepEnds& ends, double moved, const 
     memory->rest_gap = std::min(0.0, std::max(memory->rest_gap, gap));
   else if (!smooth)
     memory->rest_gap = std::min(0.0, gap - memory->elastic_gap);
-  // The force of an impact is no force from which the next step could go on.
   const bool met = !smooth && ends.approach > moved;
-  memory->loaded_steps = !loaded ? 0 : met ? 1 : memory->loaded_steps + 1;
+  memory->loaded_steps = loaded ? memory->loaded_steps + 1 : 0;
+  return loaded && met;
+}
+
+/// The force of an impact is no force from which the next step could go on, neither of the contacts that have
+/// `met` (nc) nor of those through which the impact passes.
+void end_past_at_impacts(const ContactProblem& problem, const std::vector<char>& met,
+                         std::vector<ContactMemory>* values) {
+  if (std::ranges::count(met, 1) == 0) return;
+  const auto first_free = [&](size_t i) { return std::max(problem.block_a[i], problem.block_b[i]); };
+  DisjointSets loaded(problem.num_blocks());
+  for (size_t i = 0; i < met.size(); ++i)
+    if ((*values)[i].loaded_steps > 0 && std::min(problem.block_a[i], problem.block_b[i]) >= 0)
+      loaded.join(problem.block_a[i], problem.block_b[i]);
+  std::vector<char> reached(problem.num_blocks(), 0);  // by the first block of a set
+  for (size_t i = 0; i < met.size(); ++i)
+    if (met[i]) reached[loaded.root(first_free(i))] = 1;
+  for (size_t i = 0; i < met.size(); ++i)
+    if (reached[loaded.root(first_free(i))])
+      (*values)[i].loaded_steps = std::min((*values)[i].loaded_steps, 1);
+}
+
+/// What the ties carry from step to step.
+void update_ties(const StepProblem& step, const ContactSolution& solution, std::vector<TieMemory>* ties) {
+  for (size_t k = 0; k < ties->size(); ++k) {
+    const int row = step.num_contacts + static_cast<int>(k);
+    (*ties)[k].impulse = solution.gamma[3 * row];
+    (*ties)[k].yielded += plastic_elongation(step, row, solution);
+  }
 }
 
 }  // namespace
@@ -74,6 +102,7 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
   const double h = options.reach();
   std::vector<ContactMemory>& values = memories->stored();
   const double moved = options.h * options.h * reference_acceleration(model, state);
+  std::vector<char> met(step.num_contacts, 0);  // in this step; of the generalized alpha method
   const auto update = [&](int i) {
     const Contact& contact = contacts.points[i];
     ContactMemory& memory = values[i];
@@ -108,19 +137,16 @@ void update_memories(const Model& model, const StepProblem& step, const ContactS
     if (options.tangential == TangentialSpring::literal) memory.elastic_slip_A.setZero();
     if (options.integrator.is_euler()) return;
     const Vec3 force_C = gamma / step.impulse_time[i];
-    update_past(state.poses[contact.block_a].q_WB.conjugate() * (R_WC * force_C),
-                {approach, contact.gap + rest + h * u[3 * i]}, moved, options, &memory);
+    met[i] = update_past(state.poses[contact.block_a].q_WB.conjugate() * (R_WC * force_C),
+                         {approach, contact.gap + rest + h * u[3 * i]}, moved, options, &memory);
   };
   constexpr double kOperationsPerContact = 200.0;
   share_range(kOperationsPerContact * step.num_contacts, step.num_contacts, [&](int first, int last) {
     for (int i = first; i < last; ++i) update(i);
   });
+  end_past_at_impacts(problem, met, &values);
   memories->ties.resize(model.ties.size());
-  for (size_t k = 0; k < model.ties.size(); ++k) {
-    const int row = step.num_contacts + static_cast<int>(k);
-    memories->ties[k].impulse = solution.gamma[3 * row];
-    memories->ties[k].yielded += plastic_elongation(step, row, solution);
-  }
+  update_ties(step, solution, &memories->ties);
 }
 
 double plastic_elongation(const StepProblem& step, int row, const ContactSolution& solution) {

@@ -107,6 +107,23 @@ TEST(GeneralizedAlpha, AnImpactGivesNoEnergy) {
   }
 }
 
+// A slab that lies on the floor passes the impact of a block that falls on it to the floor: both stop there.
+TEST(GeneralizedAlpha, AnImpactThroughAClosedJointActsOnce) {
+  const double drop = 1.0, h = 5e-3;
+  const Assembly assembly = testing::make_boxes({{.center = {0, 0, -0.5}, .fixed = true},
+                                                 {.center = {0, 0, 0.2}, .size = {0.6, 0.6, 0.4}},
+                                                 {.center = {0, 0, 0.6 + drop}, .size = {0.6, 0.6, 0.4}}});
+  testing::AccountedSimulation simulation(second_order(make_case(0.3, 0.0, h)), assembly);
+  double last = simulation.energy().total();
+  for (int k = 0; k < 200; ++k) {
+    const double now = simulation.advance().energy.total();
+    EXPECT_LE(now, last + 1e-6 * assembly.blocks[1].mass * kG * drop) << "the solves, step " << k;
+    EXPECT_NEAR(simulation.state().poses[1].p_WB.z(), 0.2, 1e-9) << "the rounding of the solves";
+    last = now;
+  }
+  EXPECT_LT(simulation.state().v.norm(), 1e-6) << "the rounding of the solves";
+}
+
 // A block flies into a wall at 1 m/s. The step that brings their faces together may leave any share of the
 // impact to the next.
 TEST(GeneralizedAlpha, ARigidImpactStopsTheBlock) {
