@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/base/pace.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/case/case_times.hpp"
 #include "assembly/files/byte_archive.hpp"
@@ -58,6 +59,7 @@ class DynamicRun {
   StepReport report_;
   State seen_;  // from the ground
   Snapshot now_;
+  Pace saving_;  // between frames, since a stop that ends a solve saves nothing
 };
 
 DynamicRun::DynamicRun(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks)
@@ -220,7 +222,7 @@ std::optional<Summary> DynamicRun::run() {
     if (!due && progress_.steps % kStepsPerFactor != 0) continue;
     simulation_.forget_factor();
     const bool interrupted = sinks_.interrupted();
-    if (due || interrupted) sinks_.checkpoint(checkpoint());
+    if (due || interrupted || saving_.is_due()) saving_.run([this] { sinks_.checkpoint(checkpoint()); });
     if (interrupted) return std::nullopt;
   }
 }

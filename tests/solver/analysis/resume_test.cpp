@@ -8,6 +8,7 @@
 #include "assembly/files/atomic_file.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "solver/runtime/checkpoint.hpp"
+#include "solver/runtime/interruption.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
 namespace cupola::resume_test {
@@ -100,6 +101,29 @@ TEST(Resume, GivesTheSameBitsWithAdaptiveStepsAndAStaticStart) {
   Recorder whole;
   ASSERT_TRUE(run_dynamic(scene, wall, whole.sinks()));
   for (const int query : {1, 3}) interrupt_and_resume(scene, wall, query, whole);
+}
+
+// A stop that cannot wait for the next frame or tenth step leaves a solve, as that of the fifteenth step here.
+TEST(Resume, ContinuesAMotionThatIsAbandonedBetweenFrames) {
+  const Assembly wall = testing::running_bond_wall({0.6, 0.3, 0.3}, 3, 4);
+  Case scene = collapsing_case();
+  scene.output.frames_every = 0.3;
+  scene.analysis.duration = 0.15;
+  Recorder whole, first;
+  ASSERT_TRUE(run_dynamic(scene, wall, whole.sinks()));
+  AnalysisSinks sinks = first.sinks();
+  sinks.log = [step = 0](const std::string&) mutable {
+    if (++step == 15) throw Interrupted();
+  };
+  EXPECT_THROW(run_dynamic(scene, wall, sinks), Interrupted);
+  ASSERT_FALSE(first.checkpoint.empty());
+
+  Recorder second = first;
+  second.history.resize(first.rows_at_checkpoint);
+  sinks = second.sinks();
+  sinks.resume_from = first.checkpoint;
+  ASSERT_TRUE(run_dynamic(scene, wall, sinks));
+  expect_same_bits(whole, second);
 }
 
 TEST(Checkpoint, IsReadBackAndRefusedIfDamaged) {
