@@ -51,6 +51,24 @@ double detected_step(const Model& model, const CollisionModel& shapes, const Sta
   return fast ? fast->longest : h;
 }
 
+/// m/s, by which the mean velocity of the ground over the last step would differ had that step been as long as
+/// the next. From one step to another of its length it changes by a h, of which its acceleration a follows; to
+/// one of another length by a (last + next) / 2, which would jolt what stands on the ground.
+Vec3 ground_correction(const GroundMotion& ground, const State& state, double last, double next) {
+  if (last == 0.0 || last == next || ground.direction.isZero(0.0)) return Vec3::Zero();
+  const Vec3 before = (state.ground - ground.displacement(state.time - last)) / last;
+  const Vec3 after = (ground.displacement(state.time + next) - state.ground) / next;
+  return (last - next) / (last + next) * (after - before);
+}
+
+/// J, of the blocks of a problem at the velocities v.
+double kinetic_energy(const ContactProblem& problem, const VecX& v) {
+  double energy = 0.0;
+  for (int i = 0; i < problem.num_blocks(); ++i)
+    energy += 0.5 * v.segment<6>(6 * i).dot(problem.M[i] * v.segment<6>(6 * i));
+  return energy;
+}
+
 [[maybe_unused]] bool is_finite(const State& state) {
   const auto finite = [](const Pose& pose) {
     return pose.p_WB.allFinite() && pose.q_WB.coeffs().allFinite();
@@ -141,31 +159,44 @@ StepReport Simulation::advance_awake(const ContactSet& contacts, const StepOptio
   return report;
 }
 
+StepProblem Simulation::solve_step(const Model& model, const ContactSet& contacts, const State& middle,
+                                   const StepOptions& step, const State& state, ContactMemories* memories,
+                                   ContactSolution* solution, StepReport* report) {
+  constexpr int kMostPasses = 50;
+  StepProblem problem;
+  ContactSolverOptions solve_options = options_.solve;
+  solve_options.reference_speed = step.h * reference_acceleration(model, state);
+  if (model.joints.has_strength()) begin_step(contacts, memories);
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    problem = build_step_problem(model, middle, contacts, *memories, step);
+    if (pass == 0) *solution = warm_start(problem, middle, contacts, *memories);
+    const SolveSummary solved = solver_.solve(problem.problem, solve_options, solution);
+    report->solve = pass == 0 ? solved : solved.after(report->solve);
+    if (!model.joints.has_strength() || !report->solve.usable() ||
+        !refine_step(model, state, contacts, problem, *solution, step, memories))
+      break;
+  }
+  report->residuals =
+      compute_residuals(problem.problem, *solution, solve_options.reference_speed, solve_options.law);
+  return problem;
+}
+
 StepReport Simulation::solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step,
                                       State* state, ContactMemories* memories) {
-  constexpr int kMostPasses = 50;     // solves of one step, until the damage of its joints is right
   constexpr double kTolerated = 4.0;  // ratio to the allowed error above which the step is repeated
   StepReport report;
   StepProblem problem;
   ContactSolution solution;
   State middle;
+  const VecX v = state->v;
   while (true) {
-    middle = middle_of_step(model, *state, step);
     // 1. Build and solve the contact problem
-    ContactSolverOptions solve_options = options_.solve;
-    solve_options.reference_speed = step.h * reference_acceleration(model, *state);
-    if (model.joints.has_strength()) begin_step(contacts, memories);
-    for (int pass = 0; pass < kMostPasses; ++pass) {
-      problem = build_step_problem(model, middle, contacts, *memories, step);
-      if (pass == 0) solution = warm_start(problem, middle, contacts, *memories);
-      const SolveSummary solved = solver_.solve(problem.problem, solve_options, &solution);
-      report.solve = pass == 0 ? solved : solved.after(report.solve);
-      if (!model.joints.has_strength() || !report.solve.usable() ||
-          !refine_step(model, *state, contacts, problem, solution, step, memories))
-        break;
-    }
-    report.residuals =
-        compute_residuals(problem.problem, solution, solve_options.reference_speed, solve_options.law);
+    const Vec3 correction = ground_correction(model.ground, *state, last_h_, step.h);
+    state->v = v;
+    if (!correction.isZero(0.0))
+      for (int i = 0; i < model.num_free(); ++i) state->v.segment<3>(6 * i) += correction;
+    middle = middle_of_step(model, *state, step);
+    problem = solve_step(model, contacts, middle, step, *state, memories, &solution, &report);
     report.time_error = step_error(problem, state->v, solution.v, step.h);
     if (!options_.adaptive) break;
 
@@ -181,7 +212,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
       if (detections_followed_ != detector_.num_detections()) follow_detection(contacts, again.poses);
     }
   }
-  report.h = step.h;
+  report.h = last_h_ = step.h;
   report.forces = joint_forces(contacts, solution.gamma, problem.impulse_time);
   report.violations = law_violations(contacts, solution.gamma,
                                      contact_law_errors(problem.problem, solution, options_.solve.law));
@@ -194,6 +225,7 @@ StepReport Simulation::solve_and_move(const Model& model, const ContactSet& cont
   integrate_positions(model, step.h, step.advance(), mean_velocity(problem, *state, solution, step), state);
   state->v = solution.v;
   report.work = work_of_step(model, start, problem, solution, *state, *memories, step);
+  report.work.scheme -= kinetic_energy(problem.problem, start.state.v) - kinetic_energy(problem.problem, v);
   report.elastic_impact =
       elastic_impact(start, problem, solution, reference_acceleration(model, start.state), step);
   report.problem = std::move(problem);

@@ -96,6 +96,10 @@ class Simulation {
   /// All of the step after contact detection, for the whole scene or the part that is awake.
   StepReport solve_and_move(const Model& model, const ContactSet& contacts, StepOptions step, State* state,
                             ContactMemories* memories);
+  /// Solves the contact problem of a step from `middle`, again until the damage of its joints is right.
+  StepProblem solve_step(const Model& model, const ContactSet& contacts, const State& middle,
+                         const StepOptions& step, const State& state, ContactMemories* memories,
+                         ContactSolution* solution, StepReport* report);
   /// One step without its account of energy across detection and sleep.
   StepReport advance_detected(const ContactSet& contacts, const StepOptions& step);
   StepReport advance_awake(const ContactSet& contacts, const StepOptions& step);
@@ -120,6 +124,7 @@ class Simulation {
   SleepState sleep_state_;
   std::optional<ReducedScene> reduced_;  ///< set when first needed while blocks sleep
   double next_h_;
+  double last_h_ = 0.0;           ///< s, of the last step; 0: none
   std::optional<Energy> energy_;  ///< at the end of the last step; unknown at first
 };
 

@@ -21,10 +21,10 @@ std::string Simulation::save() const {
   DetectionMemory detection = detector_.memory();
   ContactMemories memories = memories_;
   SleepState sleep_state = sleep_state_;
-  double next_h = next_h_;
+  double next_h = next_h_, last_h = last_h_;
   Energy last_energy = energy_.value_or(energy());
   ByteWriter archive;
-  archive(state, detection, memories, sleep_state, next_h, last_energy);
+  archive(state, detection, memories, sleep_state, next_h, last_h, last_energy);
   return archive.bytes();
 }
 
@@ -33,7 +33,7 @@ void Simulation::restore(const std::string& bytes) {
   State state;
   Energy last_energy;
   ByteReader archive(bytes);
-  archive(state, detection, memories_, sleep_state_, next_h_, last_energy);
+  archive(state, detection, memories_, sleep_state_, next_h_, last_h_, last_energy);
   if (!archive.at_end() || state.poses.size() != state_.poses.size() || state.v.size() != state_.v.size())
     throw std::runtime_error("belongs to another scene");
   state_ = std::move(state);

@@ -149,6 +149,22 @@ TEST(BaseMotion, CoarseAccelerogramGivesNoJolts) {
   EXPECT_NEAR(largest / (1000.0 * (kG + a)), 1.0, 1e-6);
 }
 
+// The ground accelerates steadily. However long the steps, the block on it needs the friction m a; the first
+// step starts from rest.
+TEST(BaseMotion, StepsOfOtherLengthsGiveNoJolts) {
+  const std::string path = ::testing::TempDir() + "/steady.csv";
+  std::ofstream(path) << "0, 2\n10, 2\n";
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 0.2});
+  Case scene = make_case(0.8, 1e-12, 0.01);
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::acceleration, Vec3::UnitX()};
+  testing::AccountedSimulation simulation(scene, assembly);
+  simulation.advance();
+  for (const double h : {0.01, 1e-4, 2e-4, 0.01, 1e-3, 1e-4, 0.01}) {
+    const double friction = simulation.advance(h).balance.support_reaction.x();
+    EXPECT_NEAR(friction / (200.0 * 2.0), 1.0, 1e-4) << "its springs swing, a step of " << h << " s";
+  }
+}
+
 TEST(BaseMotion, ErrorsStateLineAndRule) {
   const std::string path = ::testing::TempDir() + "/motion.csv";
   const auto message = [&](const char* text) {
