@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "assembly/files/time_table.hpp"
+#include "assembly/model/smooth_motion.hpp"
 
 namespace cupola {
 namespace {
@@ -32,11 +33,12 @@ std::vector<std::string> cut_off(const std::vector<KeyedTime>& times, const std:
 }  // namespace
 
 TimeFunction ground_time(const BaseMotion& motion) {
-  TableInTime table = read_time_table(motion.file);
+  const TableInTime table = read_time_table(motion.file);
   if (motion.quantity == BaseMotion::Quantity::acceleration) return integrate_twice(table);
-  const double start = factor_at(table, 0.0);
-  for (double& value : table.values) value -= start;
-  return table;
+  DisplacementInTime ground = interpolate_smoothly(table);
+  const double start = factor_at(ground, 0.0);
+  for (double& value : ground.displacement) value -= start;
+  return ground;
 }
 
 std::vector<KeyedTime> times_of(const Case& scene) {

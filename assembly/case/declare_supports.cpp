@@ -5,6 +5,7 @@
 
 #include "assembly/case/declare.hpp"
 #include "assembly/files/time_table.hpp"
+#include "assembly/model/smooth_motion.hpp"
 
 namespace cupola {
 namespace {
@@ -42,12 +43,30 @@ void expect_rest_at_end(Section& s, const BaseMotion& motion, const TableInTime&
                    motion.file)});
 }
 
+/// The ground starts from rest and stops at the end of a record of displacements, within some of its samples.
+void expect_rest_at_ends(Section& s, const BaseMotion& motion, const TableInTime& displacement) {
+  constexpr size_t kEnd = 5;  // samples that the jolt at an end reaches in the spline, to below 1 %
+  constexpr double kJolt =
+      4.0;  // times what the motion between has: no record that starts from rest has that
+  const std::vector<double> a = interpolate_smoothly(displacement).acceleration.values;
+  if (a.size() <= 2 * kEnd) return;
+  double between = 0.0;
+  for (size_t i = kEnd; i + kEnd < a.size(); ++i) between = std::max(between, std::abs(a[i]));
+  const double scale = motion.direction.norm();
+  s.expect(
+      {" (acceleration at an end)", scale * std::max(std::abs(a.front()), std::abs(a.back())), "m/s2", 0.0,
+       scale * kJolt * between, "",
+       fmt::format("{} starts or ends at speed, which the ground takes up or loses within a sample: use a "
+                   "longer record",
+                   motion.file)});
+}
+
 void declare_base_motion(Section& s, BaseMotion& motion) {
   s.file("file", motion.file, "two columns: time (s) and value (m or m/s2)");
   s.choice(
       "quantity", motion.quantity,
-      "quantity in the second column; an acceleration is integrated from rest, without baseline correction, "
-      "and is 0 after its end");
+      "quantity in the second column; a displacement is interpolated by a cubic spline, at rest before and "
+      "after; an acceleration is integrated from rest, without baseline correction, and is 0 after its end");
   s.vector3("direction", motion.direction, {},
             "direction of the motion; its length scales the values of the file");
   s.rule(!motion.file.empty(), "file", "must be given: a file with the columns time and value");
@@ -59,6 +78,7 @@ void declare_base_motion(Section& s, BaseMotion& motion) {
   if (motion.quantity == BaseMotion::Quantity::displacement) {
     s.expect({" (largest displacement)", peak, "m", 1e-5, 10.0, kKilometres,
               "in mm or cm? Multiply direction by 0.001 or 0.01"});
+    expect_rest_at_ends(s, motion, table);
     return;
   }
   s.expect({" (largest acceleration)", peak, "m/s2", 0.1, 50.0, "in g? Multiply direction by 9.81",

@@ -43,7 +43,8 @@ double at(const TableInTime& table, double time) {
 /// x = x_i + v_i s + (a_i / 2 + (a_(i+1) - a_i) s / (6 dt)) s^2 with s = t - t_i.
 double at(const DisplacementInTime& motion, double time) {
   const TableInTime& table = motion.acceleration;
-  if (table.times.empty() || time <= table.times.front()) return 0.0;
+  if (table.times.empty()) return 0.0;
+  if (time <= table.times.front()) return motion.displacement.front();
   if (time >= table.times.back())
     return motion.displacement.back() + (time - table.times.back()) * motion.velocity.back();
   const size_t i = interval_of(table.times, time);

@@ -33,7 +33,7 @@ struct TableInTime {
 
 /// Displacement (m) under an acceleration that is linear between the points of a table and 0 beyond them:
 /// cubic between them, and at constant velocity after the last, so that the velocity never jumps.
-/// integrate_twice() fills it.
+/// integrate_twice() fills it, or interpolate_smoothly() (smooth_motion.hpp).
 struct DisplacementInTime {
   TableInTime acceleration;          ///< m/s2
   std::vector<double> velocity;      ///< m/s, one per time

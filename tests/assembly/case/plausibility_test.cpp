@@ -2,6 +2,7 @@
 // mistake.
 #include "assembly/case/plausibility.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -187,6 +188,27 @@ TEST(ImplausibleValues, AccelerogramsThatEndInMotion) {
       ends_fast[0].starts_with("supports.base_motion (velocity at the end) = 0.5 m/s: at most 0.025 "
                                "m/s expected; the ground keeps this velocity after the end of "))
       << ends_fast[0];
+}
+
+// A sway of the ground of 1 Hz, cut out at full speed or where it rests.
+TEST(ImplausibleValues, DisplacementsThatStartOrEndInMotion) {
+  const ScratchFolder scratch;
+  const auto warnings = [&](double first, double last) {
+    std::ostringstream record;
+    for (int i = 0; i <= 50; ++i)
+      record << 0.02 * i << ", " << 0.1 * std::cos(6.283 * (first + (last - first) * i / 50)) << "\n";
+    scratch.write("quake.csv", record.str());
+    return read_case(scratch.write("quake.yaml",
+                                   "extends: cupola:arch\nanalysis: {type: dynamic}\nsupports: "
+                                   "{base_motion: {file: quake.csv}}\n"))
+        .warnings;
+  };
+  EXPECT_TRUE(warnings(0.0, 1.0).empty());
+  for (const auto& cut : {warnings(0.25, 1.0), warnings(0.0, 0.75)}) {
+    ASSERT_EQ(cut.size(), 1u);
+    EXPECT_TRUE(cut[0].starts_with("supports.base_motion (acceleration at an end) = ")) << cut[0];
+    EXPECT_NE(cut[0].find("quake.csv starts or ends at speed"), std::string::npos) << cut[0];
+  }
 }
 
 // A motion lasts 4 s longer than what it follows, and says what it leaves out.

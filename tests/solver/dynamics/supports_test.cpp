@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <fstream>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/time_table.hpp"
+#include "assembly/model/smooth_motion.hpp"
 #include "tests/solver/accounted_simulation.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
@@ -147,6 +149,42 @@ TEST(BaseMotion, CoarseAccelerogramGivesNoJolts) {
   for (int step = 0; step < 700; ++step)
     largest = std::max(largest, simulation.advance().balance.support_reaction.z());
   EXPECT_NEAR(largest / (1000.0 * (kG + a)), 1.0, 1e-6);
+}
+
+// x = 3 t^2 - 2 t^3 is at rest at 0 and 1 s, where the record waits before and after.
+TEST(BaseMotion, InterpolatesDisplacementsByACubicSpline) {
+  const auto exact = [](double t) { return t * t * (3.0 - 2.0 * t); };
+  TableInTime table;
+  table.times = {-2.0, -1.0, 0.0, 0.2, 0.3, 0.7, 1.0, 1.5, 3.0};
+  for (const double t : table.times) table.values.push_back(exact(std::clamp(t, 0.0, 1.0)));
+  const TimeFunction motion = interpolate_smoothly(table);
+  for (const double t : {-3.0, -0.5, 0.0, 0.1, 0.25, 0.5, 0.9, 1.0, 1.2, 4.0})
+    EXPECT_NEAR(factor_at(motion, t), exact(std::clamp(t, 0.0, 1.0)), 1e-15) << "rounding, " << t << " s";
+  EXPECT_DOUBLE_EQ(last_change(motion), 1.0);
+  // There and back, with a rest between.
+  const TimeFunction jerks =
+      interpolate_smoothly({.file = "", .times = {0.0, 0.1, 0.5, 0.6}, .values = {0.0, 0.2, 0.2, 0.0}});
+  for (const double t : {0.1, 0.101, 0.3, 0.499, 0.5}) EXPECT_NEAR(factor_at(jerks, t), 0.2, 1e-15) << t;
+  EXPECT_NEAR(factor_at(jerks, 0.05), 0.1, 1e-15);
+  EXPECT_NEAR(factor_at(jerks, 0.55), 0.1, 1e-15);
+}
+
+// A lift that rises and returns in a second, by twenty displacements. The acceleration of the spline errs by
+// (w dt)^2 / 12 = 0.8 %.
+TEST(BaseMotion, CoarseDisplacementsGiveNoJolts) {
+  const std::string path = ::testing::TempDir() + "/lift_displacements.csv";
+  const double w = 2.0 * std::numbers::pi, rise = 0.05, a = rise * w * w;
+  std::ofstream file(path);
+  for (int i = 0; i <= 20; ++i) file << 0.05 * i << ", " << rise * (1.0 - std::cos(w * 0.05 * i)) << "\n";
+  file.close();
+  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
+  Case scene = make_case(0.3, 1e-12, 1e-3);
+  scene.supports.base_motion = BaseMotion{path, BaseMotion::Quantity::displacement, Vec3::UnitZ()};
+  testing::AccountedSimulation simulation(scene, assembly);
+  double largest = 0.0;
+  for (int step = 0; step < 1200; ++step)
+    largest = std::max(largest, simulation.advance().balance.support_reaction.z());
+  EXPECT_NEAR(largest / (1000.0 * kG) - 1.0, a / kG, 0.01 * a / kG);
 }
 
 // The ground accelerates steadily. However long the steps, the block on it needs the friction m a; the first
