@@ -155,8 +155,9 @@ double pulse(const TableInTime& table) {
   return shortest;
 }
 
-double pulse(const DisplacementInTime&) {
-  return kNever;
+/// Of the velocity, since a step takes the integral of the acceleration whole.
+double pulse(const DisplacementInTime& motion) {
+  return pulse(TableInTime{.file = "", .times = motion.acceleration.times, .values = motion.velocity});
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ double seen_by(const TimeFunction& function);
 double next_corner(const TimeFunction& function, double time);
 
 /// s, shortest time between a rise and a fall, or the reverse, that a longer step may leave out; infinity:
-/// none, as of accelerograms, whose integral a step takes whole.
+/// none. Of a DisplacementInTime that of its velocity.
 double shortest_pulse(const TimeFunction& function);
 
 /// True if the factor at some time after 0 differs from that at the time 0.

@@ -254,6 +254,28 @@ TEST(MissedChanges, OfPulsesShorterThanAStep) {
   EXPECT_TRUE(warnings("[0, 1, 1, 0.99]", "").empty()) << "noise";
 }
 
+// The velocity of the ground rises and falls in 20 ms each. Noise of the acceleration hardly changes it.
+TEST(MissedChanges, OfPulsesOfTheGround) {
+  const ScratchFolder scratch;
+  const auto warnings = [&](const std::string& record, const std::string& time_step) {
+    scratch.write("quake.csv", record);
+    return read_case(scratch.write("quake.yaml",
+                                   "extends: cupola:arch\n"
+                                   "supports: {base_motion: {file: quake.csv, quantity: acceleration}}\n"
+                                   "analysis: {type: dynamic, time_step: " +
+                                       time_step + "}\n"))
+        .warnings;
+  };
+  const std::string pulse =
+      "0, 0\n0.01, 5\n0.02, 0\n0.03, -5\n0.04, 0\n0.05, 5\n0.06, 0\n0.07, -5\n0.08, 0\n";
+  EXPECT_EQ(
+      warnings(pulse, "0.04"),
+      std::vector<std::string>{"analysis.time_step = 0.04 s exceeds a pulse of supports.base_motion, 0.02 s, "
+                               "which steps may leave out; give a shorter one, or analysis.time_error"});
+  EXPECT_TRUE(warnings(pulse, "0.01").empty());
+  EXPECT_TRUE(warnings("0, 0\n0.5, 1\n0.51, 1.2\n0.52, 0.9\n1.5, -1\n1.945, 0\n", "0.04").empty());
+}
+
 // A path meets a wave of 1 Hz in each of ten or twenty steps when it is zero.
 TEST(MissedChanges, OfPulsesWithLessThanTwoStepsOfAPath) {
   const auto warnings = [](const std::string& path) {
