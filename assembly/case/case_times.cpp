@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -28,6 +29,30 @@ std::vector<std::string> cut_off(const std::vector<KeyedTime>& times, const std:
   if (cut.empty()) return {};
   return {fmt::format("{} = {:g} s ends before {}: the answer is that up to {:g} s; give {:g} s or more", key,
                       end, fmt::join(cut, ", "), end, last)};
+}
+
+/// s, when a motion jumps within a step (s).
+std::optional<double> jump_in(const TimeFunction& function, double step) {
+  const auto* wave = std::get_if<HarmonicInTime>(&function);
+  if (wave && wave->start > 0.0 && std::abs(factor_at(function, wave->start)) > kSameTime) return wave->start;
+  const auto* ramp = std::get_if<RampInTime>(&function);
+  if (ramp && varies(function) && ramp->duration < (1.0 - kSameTime) * step) return ramp->start;
+  return std::nullopt;
+}
+
+/// Supports that jump, before the end of a motion.
+std::vector<std::string> jumps_of_supports(const Case& scene) {
+  std::vector<std::string> out;
+  const double step = scene.analysis.time_error ? 0.0 : scene.analysis.time_step;
+  for (size_t i = 0; i < scene.supports.moves.size(); ++i)
+    if (const auto time = jump_in(scene.supports.moves[i].time, step);
+        time && *time < scene.analysis.duration)
+      out.push_back(
+          fmt::format("supports.moves[{}].time: jumps within a step at {:g} s, and throws what stands on the "
+                      "support; let "
+                      "the motion begin at 0 and last several steps",
+                      i, *time));
+  return out;
 }
 
 }  // namespace
@@ -125,6 +150,8 @@ std::vector<std::string> missed_changes(const Case& scene) {
   if (analysis.type != AnalysisType::dynamic) return {};
   const std::vector<KeyedTime> times = times_of(scene);
   std::vector<std::string> out = cut_off(times, "analysis.duration", analysis.duration);
+  const std::vector<std::string> jumps = jumps_of_supports(scene);
+  out.insert(out.end(), jumps.begin(), jumps.end());
   if (analysis.time_error) return out;
   for (const KeyedTime& time : times)
     if (const double pulse = shortest_pulse(time.function); pulse < (1.0 - kSameTime) * analysis.time_step)

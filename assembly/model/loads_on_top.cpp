@@ -32,6 +32,11 @@ std::string force_on_highest(const Assembly& assembly, double weight) {
 }
 
 [[noreturn]] void refuse_without_tops(const Assembly& assembly, double weight, const char* key) {
+  if (weight == 0.0)
+    throw InputError(fmt::format(
+        "loads.{}: the assembly has no faces of kind top to carry it, and no force stands for a mass without "
+        "gravity",
+        key));
   throw InputError(
       fmt::format("loads.{}: the assembly has no faces of kind top to carry it; give it to the highest block "
                   "as {}",

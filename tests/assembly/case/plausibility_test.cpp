@@ -254,6 +254,25 @@ TEST(MissedChanges, OfPulsesShorterThanAStep) {
   EXPECT_TRUE(warnings("[0, 1, 1, 0.99]", "").empty()) << "noise";
 }
 
+// A support that is elsewhere one step later.
+TEST(MissedChanges, OfSupportsThatJump) {
+  const auto warnings = [](const std::string& time, const std::string& analysis) {
+    return read_case(bundled_folder() + "/arch.yaml",
+                     {"supports.moves=[{blocks: [0], displacement: [0.01, 0, 0], time: {" + time + "}}]",
+                      "analysis={type: dynamic, duration: 3" + analysis + "}"})
+        .warnings;
+  };
+  const std::vector<std::string> jump{
+      "supports.moves[0].time: jumps within a step at 1 s, and throws what stands on the support; let the "
+      "motion begin at 0 and last several steps"};
+  EXPECT_EQ(warnings("type: harmonic, phase_deg: 90, start: 1", ""), jump);
+  EXPECT_EQ(warnings("type: harmonic, phase_deg: 90, start: 1", ", time_error: 1e-5"), jump);
+  EXPECT_TRUE(warnings("type: harmonic, start: 1", "").empty());
+  EXPECT_EQ(warnings("type: ramp, duration: 0.001, start: 1", ""), jump);
+  EXPECT_TRUE(warnings("type: ramp, duration: 0.001, start: 1", ", time_error: 1e-5").empty());
+  EXPECT_TRUE(warnings("type: ramp, duration: 0.1, start: 1", "").empty());
+}
+
 // The velocity of the ground rises and falls in 20 ms each. Noise of the acceleration hardly changes it.
 TEST(MissedChanges, OfPulsesOfTheGround) {
   const ScratchFolder scratch;

@@ -143,6 +143,12 @@ TEST(AppliedLoads, LoadsWithoutABlockOrFaceAreRefused) {
             fmt::format("error: loads.lantern: the assembly has no faces of kind top to carry it; give it to "
                         "the highest block as loads.forces: [{{block: 1, force: [0, 0, {:.6g}]}}]",
                         -0.1 * free_weight(assembly, 9.81)));
+  loads.lantern = TopLoad{.mass = 100.0};
+  loads.gravity.setZero();
+  EXPECT_EQ(
+      refusal_of(loads, assembly),
+      "error: loads.lantern: the assembly has no faces of kind top to carry it, and no force stands for "
+      "a mass without gravity");
 }
 
 // A limit seeks the lantern of an arch, which has no such key: the advice is another limit of the same number.
