@@ -145,6 +145,8 @@ void DynamicRun::include_accuracy(double time) {
 
   progress_.elastic_steps += report_.elastic_impact > 0.0 ? 1 : 0;
   progress_.elastic_impact = std::max(progress_.elastic_impact, report_.elastic_impact);
+  for (const Contact& contact : simulation_.contacts().points)
+    progress_.deepest = std::max(progress_.deepest, -contact.gap);
   if (analysis_.adaptive && report_.h <= analysis_.adaptive->smallest &&
       report_.time_error > analysis_.adaptive->displacement_error) {
     ++progress_.coarse_steps;

@@ -37,11 +37,13 @@ std::string coarse_text(const Analysis& analysis, const RunProgress& progress) {
 /// A warning if impacts were elastic.
 std::string elastic_text(const Analysis& analysis, const RunProgress& progress) {
   return fmt::format(
-      "blocks met and bounced in {}: their joints, elastic {}, take {:.1e} s to stop them, "
-      "longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with rigid "
+      "blocks met and bounced in {}, overlapping by up to {:.2g} m: their joints, elastic {}, take {:.1e} s "
+      "to "
+      "stop them, longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with "
+      "rigid "
       "joints "
       "(compliance 0){}",
-      counted(progress.elastic_steps, "step"),
+      counted(progress.elastic_steps, "step"), progress.deepest,
       analysis.damping > 0.0 ? fmt::format("with a damping of {:g} s", analysis.damping) : "without damping",
       progress.elastic_impact, 2.0 * progress.elastic_impact,
       analysis.adaptive ? "" : " or a much longer `analysis.time_step`");

@@ -28,6 +28,7 @@ struct RunProgress {
   double calm_since = 0.0;     // s, time since which no block has been faster than the settled speed
   int elastic_steps = 0;       // steps in which contacts begin to bounce, and their longest time of impact, s
   double elastic_impact = 0.0;   // (elastic_impact.hpp)
+  double deepest = 0.0;          // m, largest overlap of two blocks in a contact
   bool starts_unstable = false;  // the static start is an unstable balance
   int fast_steps = 0;            // steps with a fast_pair(), the first of them, and when, s
   FastPair fast;
@@ -48,7 +49,7 @@ template <class Archive>
 void visit(Archive& archive, RunProgress& x) {
   archive(x.steps, x.iterations, x.missed_steps, x.rounded_steps, x.coarse_steps, x.worst_time_error,
           x.worst_error, x.measure, x.worst, x.energy, x.rest, x.farthest, x.farthest_time, x.calm_since,
-          x.elastic_steps, x.elastic_impact, x.starts_unstable, x.fast_steps, x.fast, x.fast_time);
+          x.elastic_steps, x.elastic_impact, x.deepest, x.starts_unstable, x.fast_steps, x.fast, x.fast_time);
 }
 
 /// Warnings of an unstable balance at the start, of blocks that may have passed others undetected, and of
