@@ -83,7 +83,8 @@ std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
   auto most = pushing.begin();
   double greatest = thrusts_of(e, **most).front().force;
   for (auto next = most + 1; next != pushing.end(); ++next)
-    if (const double force = thrusts_of(e, **next).front().force; force > greatest && !alike(force, greatest)) {
+    if (const double force = thrusts_of(e, **next).front().force;
+        force > greatest && !alike(force, greatest)) {
       most = next;
       greatest = force;
     }
