@@ -1,6 +1,7 @@
 #include "assembly/model/thickness.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -53,27 +54,61 @@ void check_corners(const Assembly& assembly, const std::map<int, int>& extrados_
             part.block));
 }
 
-}  // namespace
-
-Assembly with_thickness(const Assembly& assembly, double factor) {
-  CUPOLA_ASSERT(factor > 0.0);
+/// From the vertices on the intrados to those across the thickness.
+std::map<int, int> edges_across(const Assembly& assembly) {
   if (assembly.members.size() > 1)
     throw InputError(
         fmt::format("analysis.limit.parameter: thickness: requires one member without wythes, and the model "
                     "has {}; compare runs with other thicknesses of a member instead, by --set",
                     fmt::join(assembly.members, ", ")));
-  std::map<int, int> extrados_of;  // vertex on the intrados -> vertex across the thickness
+  std::map<int, int> extrados_of;
   for (const Part& part : assembly.parts) add_edges_across(assembly, part, &extrados_of);
   if (extrados_of.empty())
     throw InputError("analysis.limit.parameter: thickness: no block has both an intrados and an extrados");
   check_corners(assembly, extrados_of);
-  Assembly changed = assembly;
+  return extrados_of;
+}
+
+std::vector<Vec3> scaled_vertices(const Assembly& assembly, const std::map<int, int>& extrados_of,
+                                  double factor) {
+  std::vector<Vec3> vertices = assembly.vertices;
   for (const auto& [inner, outer] : extrados_of) {
     const Vec3 middle = 0.5 * (assembly.vertices[inner] + assembly.vertices[outer]);
     const Vec3 half = 0.5 * factor * (assembly.vertices[outer] - assembly.vertices[inner]);
-    changed.vertices[inner] = middle - half;
-    changed.vertices[outer] = middle + half;
+    vertices[inner] = middle - half;
+    vertices[outer] = middle + half;
   }
+  return vertices;
+}
+
+}  // namespace
+
+ThicknessLimit largest_thickness(const Assembly& assembly) {
+  constexpr double kSliver = 1e-3;  // of its length as built, to which the shortest edge of a skin shrinks
+  const std::vector<Vec3> twice = scaled_vertices(assembly, edges_across(assembly), 2.0);
+  ThicknessLimit limit{std::numeric_limits<double>::infinity(), -1};
+  for (const Part& part : assembly.parts) {
+    if (assembly.blocks[part.block].fixed) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      if (assembly.face_kinds[f] != FaceKind::intrados && assembly.face_kinds[f] != FaceKind::extrados)
+        continue;
+      const auto ids = assembly.face(f);
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        const int a = ids[i], b = ids[(i + 1) % ids.size()];
+        const Vec3 edge = assembly.vertices[b] - assembly.vertices[a];
+        const double shrinks = -edge.dot(twice[b] - twice[a] - edge) / edge.squaredNorm();  // linear
+        const double factor = 1.0 + (1.0 - kSliver) / shrinks;
+        if (shrinks > 0.0 && factor < limit.factor) limit = {factor, part.block};
+      }
+    }
+  }
+  return limit;
+}
+
+Assembly with_thickness(const Assembly& assembly, double factor) {
+  CUPOLA_ASSERT(factor > 0.0);
+  Assembly changed = assembly;
+  changed.vertices = scaled_vertices(assembly, edges_across(assembly), factor);
   compute_mass_properties(&changed);
   return changed;
 }

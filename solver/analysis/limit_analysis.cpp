@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/base/error.hpp"
 #include "assembly/base/process.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/files/csv_columns.hpp"
@@ -232,10 +233,23 @@ std::string write_frames(const LimitRun& run, Summary* summary) {
   return describe(mechanism);
 }
 
-}  // namespace
+/// Ends the bracket of a thickness where stones would turn inside out. Returns a note of it, "" without need.
+std::string end_at_sound_stones(const Assembly& assembly, LimitSearch* limit) {
+  if (limit->parameter != LimitSearch::Parameter::thickness) return "";
+  const ThicknessLimit most = largest_thickness(assembly);
+  if (limit->high <= most.factor) return "";
+  const std::string why = fmt::format(
+      "beyond a thickness factor of {:.5g} block {} turns inside out, where beds meet inside the shell or "
+      "the "
+      "intrados reaches the axis",
+      most.factor, most.block);
+  if (limit->low >= most.factor)
+    throw InputError(fmt::format("analysis.limit.low = {:g}: {}", limit->low, why));
+  limit->high = most.factor;
+  return "; the bracket ends early, because " + why;
+}
 
-std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
-  if (seeks_lantern(scene.analysis)) require_top_for_lantern(assembly, scene.loads.gravity.norm());
+std::optional<Summary> search_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
   LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis)};
   const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
@@ -288,6 +302,17 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
     if (!bracket.narrow) summary.message += missed_width(width, bracket_width(scene.analysis));
   }
   summary.solve_time_seconds = wall_seconds() - started;
+  return summary;
+}
+
+}  // namespace
+
+std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
+  if (seeks_lantern(scene.analysis)) require_top_for_lantern(assembly, scene.loads.gravity.norm());
+  Case sound = scene;
+  const std::string note = end_at_sound_stones(assembly, &sound.analysis.limit);
+  std::optional<Summary> summary = search_limit(sound, assembly, sinks);
+  if (summary) summary->message += note;
   return summary;
 }
 

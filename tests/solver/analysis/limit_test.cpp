@@ -198,6 +198,23 @@ TEST(Thickness, IsScaledAboutTheMiddleSurface) {
   EXPECT_THROW(with_thickness(testing::box_on_floor({1, 1, 1}), 0.5), InputError);
 }
 
+// Radial joints meet at the centre, where the thickness is twice the radius: there is no thicker arch. A
+// thousandth of the edges is left.
+TEST(Thickness, TheBracketEndsWhereStonesTurnInsideOut) {
+  const Assembly arch = make_arch({.voussoirs = 12, .thickness = 0.4});
+  EXPECT_NEAR(largest_thickness(arch).factor, 5.0 - 1e-3 * (5.0 - 1.0), 1e-9);  // rounding
+  const auto limit = [&](double low, double high) {
+    return run(limit_case(LimitSearch::Parameter::thickness, low, high, 0.7), arch);
+  };
+  const Summary within = limit(0.1, 2.0), beyond = limit(0.1, 10.0);
+  ASSERT_TRUE(within.critical && beyond.critical) << beyond.message;
+  EXPECT_NEAR(beyond.critical->value, within.critical->value, 1e-4 * within.critical->value);  // their width
+  EXPECT_EQ(within.message.find("turns inside out"), std::string::npos) << within.message;
+  EXPECT_NE(beyond.message.find("beyond a thickness factor of 4.996 block"), std::string::npos)
+      << beyond.message;
+  EXPECT_THROW(limit(6.0, 10.0), InputError);
+}
+
 // The case itself stands on the level, as it does at both ends.
 TEST(Limit, ReportsABracketWithoutACriticalValue) {
   const Summary summary =
