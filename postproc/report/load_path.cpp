@@ -11,16 +11,18 @@
 namespace cupola {
 
 std::vector<Table::Column> path_columns() {
-  return {{"time_s", "s",
-           "to which loads, friction and supports follow their functions of time; found if the path has a "
-           "length"},
-          {"displacement_m", "m", "of the control block along its direction, from relative_to if given"},
-          {"force_N", "N",
-           "along that direction: of a support on the blocks; of all loads, if the control block is free"},
-          {"dissipated_J", "J",
-           "in joints and ties since the start: friction, tension, cohesion, crushing and yielding"},
-          {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"},
-          {"widest_gap_m", "m", "widest gap of an open joint"}};
+  return {
+      {"time_s", "s",
+       "to which loads, friction and supports follow their functions of time; found if the path has a "
+       "length"},
+      {"displacement_m", "m", "of the control block along its direction, from relative_to if given"},
+      {"force_N", "N",
+       "along that direction: of a support on the blocks; if the control block is free, the load added to "
+       "all blocks since the time 0"},
+      {"dissipated_J", "J",
+       "in joints and ties since the start: friction, tension, cohesion, crushing and yielding"},
+      {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"},
+      {"widest_gap_m", "m", "widest gap of an open joint"}};
 }
 
 Table path_table(const CsvFile& csv) {
@@ -61,8 +63,9 @@ Figure path_figure(const Table& path) {
   f.name = "path";
   f.title = "Force against displacement";
   f.caption =
-      "Every point is an equilibrium. Force and displacement are those of the control block of the case "
-      "along its direction; the work is that dissipated in joints and ties.";
+      "Every point is an equilibrium. Force and displacement are along the direction of the control: the "
+      "force of a support on the blocks or, of a free block, the load added to all blocks since the time 0. "
+      "The work is that dissipated in joints and ties.";
   f.width = 900;
   f.height = 620;
   f.commands = plot_style() + data_block("path", rows) +

@@ -29,6 +29,7 @@ struct PathProgress {
   double step = 1.0;                // length of the next one, in regular steps
   double time_step = 0.0;           // s, change of the time in the last one
   double first_displacement = 0.0;  // m, of the control at time 0
+  double first_load = 0.0;          // N, along the control at time 0, of all blocks if its block is free
   int equilibria = 0, iterations = 0;
   bool proven = true;  // all equilibria
   bool moved = false;  // the last step tried was refused by a proof
@@ -41,9 +42,9 @@ struct PathProgress {
 
 template <class Archive>
 void visit(Archive& archive, PathProgress& x) {
-  archive(x.next, x.step, x.time_step, x.first_displacement, x.equilibria, x.iterations, x.proven, x.moved,
-          x.worst, x.worst_balance, x.dissipated, x.latest, x.largest_force, x.time_of_largest,
-          x.displacement_of_largest, x.table);
+  archive(x.next, x.step, x.time_step, x.first_displacement, x.first_load, x.equilibria, x.iterations,
+          x.proven, x.moved, x.worst, x.worst_balance, x.dissipated, x.latest, x.largest_force,
+          x.time_of_largest, x.displacement_of_largest, x.table);
 }
 
 namespace {
@@ -61,6 +62,11 @@ class PathRun {
 
  private:
   double displacement() const;
+  bool has_free_control() const { return model_.free_index[control_.block] != ContactProblem::kFixed; }
+  /// N, of the control along its direction.
+  double force_along(const StaticSolution& solution) const {
+    return control_force(model_, path_, solution, control_.block).dot(control_.direction);
+  }
   double parameter() const {
     return options_.length ? displacement() - progress_.first_displacement : path_.value();
   }
@@ -83,6 +89,7 @@ class PathRun {
   Summary summary_;
   PathProgress progress_;
   std::string last_failure_;
+  bool came_back_ = false;  // the last step failed at the time 0, after equilibria at later ones
   Status last_status_ = Status::stable;
   Pace saving_;
 };
@@ -115,7 +122,7 @@ bool PathRun::advance(double parameter) {
   const double time = path_.value();
   StaticSolution solution;
   if (options_.length && progress_.equilibria > 0) {
-    control_.displacement = parameter - this->parameter();
+    control_.displacement = control_.length = parameter - this->parameter();
     control_.time_step = progress_.time_step;
     solution = path_.advance_by(control_);
   } else {
@@ -129,6 +136,8 @@ bool PathRun::advance(double parameter) {
     record(solution);
     return true;
   }
+  came_back_ = options_.length && progress_.latest > 0.0 &&
+               path_.start().time + solution.time_advance <= kRounding * options_.end;
   if (progress_.equilibria == 0) {
     const Frame frame =
         static_frame(model_, path_.start(), path_.contacts(), path_.memories(), solution, path_.options());
@@ -162,12 +171,15 @@ void PathRun::record(const StaticSolution& solution) {
   progress_.proven = progress_.proven && solution.proven;
   progress_.dissipated += path_.dissipated();
   progress_.latest = std::max(progress_.latest, path_.value());
-  if (progress_.equilibria++ == 0) progress_.first_displacement = displacement();
+  if (progress_.equilibria++ == 0) {
+    progress_.first_displacement = displacement();
+    if (has_free_control()) progress_.first_load = force_along(solution);
+  }
   tabulate(frame, solution);
 }
 
 void PathRun::tabulate(const Frame& frame, const StaticSolution& solution) {
-  const double force = control_force(model_, path_, solution, control_.block).dot(control_.direction);
+  const double force = force_along(solution) - progress_.first_load;
   const PathRow row{path_.value(),
                     displacement(),
                     force,
@@ -221,18 +233,25 @@ void PathRun::judge(double started) {
   const std::string chosen =
       options_.control ? "" : fmt::format(", chosen, along ({:g}, {:g}, {:g})", along[0], along[1], along[2]);
   const std::string largest =
-      fmt::format("largest force {:.6g} N at {:.6g} {} (block {}{})", progress_.largest_force,
+      fmt::format("largest {} {:.6g} N at {:.6g} {} (block {}{})",
+                  has_free_control() ? "added load" : "force", progress_.largest_force,
                   options_.length ? progress_.displacement_of_largest : progress_.time_of_largest,
                   options_.length ? "m" : "s", block_label(*model_.assembly, control_.block), chosen);
   const std::string reached = options_.length ? fmt::format("{:.6g} m, at {:.4g} s of {:g} s", displacement(),
                                                             path_.value(), options_.end)
                                               : fmt::format("{:.6g} s", path_.value());
-  if (stands(last_status_)) {
+  if (stands(last_status_) || came_back_) {
     summary_.status = standing(progress_.proven);
     if (!bears_all_loads()) summary_.bears_loads_until_s = progress_.latest;
     summary_.message = fmt::format(
         "{} up to {}; {}", counted(progress_.equilibria, "equilibrium", "equilibria"), reached, largest);
-    if (options_.length && is_end(path_.value()))
+    if (came_back_)
+      summary_.message += fmt::format(
+          "; before the length of the path, {:g} m, the loads came back to those at 0 s: beyond, the "
+          "structure "
+          "moves by itself",
+          *options_.length);
+    else if (options_.length && is_end(path_.value()))
       summary_.message += fmt::format("; the latest time, {:g} s, came before the length of the path, {:g} m",
                                       options_.end, *options_.length);
     return;

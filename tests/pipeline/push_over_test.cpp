@@ -10,8 +10,7 @@ namespace {
 
 // The dry portal under a force on its lintel. Its piers (0.6 x 3 m, 45 kN) rock about their toes, and carry
 // the lintel (50 kN) on their other corners: F = (W_pier + W_lintel) tan(alpha - theta) with tan alpha = 0.6
-// / 3, at the displacement 3 sin(theta) + 0.6 (1 - cos(theta)). The force falls from the first moment on. A
-// step is solved in the geometry at its start, which the displacement before determines.
+// / 3, at the displacement 3 sin(theta) + 0.6 (1 - cos(theta)). The force falls from the first moment on.
 TEST(PushOver, OfThePortalFollowsItsFallingForce) {
   const ProgramFolder folder;
   write_text_atomically(folder.file("push.yaml"), R"(extends: cupola:portal
@@ -26,7 +25,7 @@ analysis: {type: path, tolerance: 1e-6, path: {steps: 20, length: 0.5, control: 
   for (size_t k = 1; k < rows.size(); ++k) {
     double theta = 0.0;  // by Newton's method
     for (int i = 0; i < 20; ++i)
-      theta -= (3 * std::sin(theta) + 0.6 * (1 - std::cos(theta)) - rows[k - 1][1]) /
+      theta -= (3 * std::sin(theta) + 0.6 * (1 - std::cos(theta)) - rows[k][1]) /
                (3 * std::cos(theta) + 0.6 * std::sin(theta));
     EXPECT_NEAR(rows[k][2], 95e3 * std::tan(std::atan(0.2) - theta), 0.002 * 19e3) << k;
   }

@@ -154,6 +154,8 @@ void ComingToRest::iterate() {
   const double share = control_share();
   solve.tolerance = std::max(kSmallest, std::min(solve.tolerance, kSolveShare * share));
   seek_time(share * trial_.h * trial_.h * acceleration_, [&] { attempt(solve, before, before); });
+  const bool at_earliest = start_.time + options_.time_advance <= options_.control->earliest;
+  num_beyond_ = at_earliest && reached_ > options_.control->length ? num_beyond_ + 1 : 0;
 }
 
 bool ComingToRest::shorten_step() {
@@ -186,7 +188,7 @@ void ComingToRest::adapt(double contraction) {
 /// rest appears as inertia.
 double ComingToRest::control_share() const {
   constexpr double kShare = 1e-2;  // of the residual, and of the displacement
-  const double largest = kShare * options_.control->displacement / (trial_.h * trial_.h * acceleration_);
+  const double largest = kShare * options_.control->length / (trial_.h * trial_.h * acceleration_);
   return std::min(largest, std::max(kSolveShare * options_.tolerance, kShare * residual_) *
                                weight_over_load(model_, acceleration_));
 }
@@ -217,7 +219,7 @@ void ComingToRest::seek_time(double tolerance, const std::function<void()>& atte
 /// True if no time gave the control displacement. At the latest time it may be missing.
 bool ComingToRest::misses_displacement(const StaticSolution& trial) const {
   constexpr double kMiss = 0.1;  // of the displacement of a step
-  if (!options_.control || std::abs(reached_) <= kMiss * options_.control->displacement) return false;
+  if (!options_.control || std::abs(reached_) <= kMiss * options_.control->length) return false;
   return reached_ > 0.0 || trial.time_advance != options_.control->latest - start_.time;
 }
 
@@ -226,12 +228,12 @@ bool ComingToRest::accepts(const StaticSolution& trial) const {
 }
 
 StaticSolution ComingToRest::give_up(int num_solves) {
-  if (!options_.control || std::abs(reached_) <= options_.control->displacement)
+  if (!options_.control || std::abs(reached_) <= options_.control->length)
     return ProximalPoint::give_up(num_solves);
   return finish(
       StaticOutcome::unconverged,
       fmt::format("no time from {:g} to {:g} s gives the control displacement of the step, {:.3g} m",
-                  options_.control->earliest, options_.control->latest, options_.control->displacement));
+                  options_.control->earliest, options_.control->latest, options_.control->length));
 }
 
 }  // namespace cupola

@@ -50,6 +50,7 @@ class ComingToRest : public ProximalPoint {
   double tightening_ = 1.0;                  // factor on the tolerance of the contact solves
   std::optional<MotionProof> motion_proof_;  // made where a motion shows
   double reached_ = 0.0;                     // m, control: displacement beyond the one asked for
+  int num_beyond_ = 0;       // control: iterations in a row that went too far at the earliest time
   double time_slope_ = 0.0;  // m/s, control: change of the displacement with the time; 0: unknown
 };
 

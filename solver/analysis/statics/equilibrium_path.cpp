@@ -187,6 +187,9 @@ namespace {
 /// Of the smallest block, by which blocks move in a step. The geometry to which a longer one leads can be so
 /// far off that nothing balances the loads there.
 constexpr double kLongStep = 0.01;
+/// Of a step by a length. On a falling branch the load follows the geometry: one in which hinges have moved by
+/// a hundredth of a block bears several hundredths less than the largest load.
+constexpr double kLongStepOfControl = 0.001;
 
 }  // namespace
 
@@ -201,6 +204,7 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
   const double length = options_.control ? options_.control->displacement : guess - last.state.time;
   const auto step = [&] {
     dissipated_ = 0.0;
+    if (options_.control) options_.control->displacement = length;
     options_.nearby.reset();
     if (last_displacement_.size() > 0) options_.nearby = next_start(length);
     return solve_from(last, guess - last.state.time);
@@ -209,11 +213,14 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
   StaticSolution solution = step();
   const VecX displacement = solution.h * solution.step_solution.v;
   const bool at_end = geometry_ == PathGeometry::end;
-  const bool far =
-      !options_.control && displacement_of(solution) > kLongStep * smallest_block_size(*model_.assembly);
+  // A step in which joints soften has the mean of their strength, one that repeats it the last.
+  const bool softens = options_.control && model_.joints.has_strength();
+  const double long_step = options_.control ? kLongStepOfControl : kLongStep;
+  const bool far = !softens && displacement_of(solution) > long_step * smallest_block_size(*model_.assembly);
   if (solution.outcome == StaticOutcome::equilibrium && (at_end || far)) {
     solution = correct(std::move(solution));
-    if (!at_end && solution.outcome != StaticOutcome::equilibrium && !solution.proven) solution = step();
+    if (!at_end && !options_.control && solution.outcome != StaticOutcome::equilibrium && !solution.proven)
+      solution = step();
   }
   if (solution.outcome == StaticOutcome::equilibrium) {
     // Blocks that rest as drawn say nothing of the next step.
@@ -239,6 +246,7 @@ StaticSolution EquilibriumPath::correct(StaticSolution solution) {
     }
     const int iterations = solution.iterations;
     options_.nearby = NearbyStart{};
+    if (options_.control) options_.control->displacement = 0.0;  // it stays where the step has led
     solution = solve_from(LoadedState(loaded_), 0.0);
     solution.iterations += iterations;
     if (solution.outcome == StaticOutcome::equilibrium) continue;

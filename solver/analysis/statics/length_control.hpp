@@ -16,9 +16,10 @@ namespace cupola {
 /// sides of one matrix; here contacts make the problem nonsmooth, and the time is a root.
 struct LengthControl {
   int block = 0;
-  int relative_to = -1;                 ///< block; -1: the world
-  Vec3 direction = Vec3::UnitX();       ///< unit
-  double displacement = 0.0;            ///< m, of the step, > 0
+  int relative_to = -1;            ///< block; -1: the world
+  Vec3 direction = Vec3::UnitX();  ///< unit
+  double displacement = 0.0;       ///< m, to be reached; 0: a step is repeated in the geometry at its end
+  double length = 0.0;             ///< m, > 0: displacement of the whole step, of which a share may be missed
   double earliest = 0.0, latest = 1.0;  ///< s, bounds of the time
   double time_step = 0.01;              ///< s, > 0: first change of the time tried
 };

@@ -176,7 +176,7 @@ StaticSolution ProximalPoint::run() {
     if (accepts(trial_)) return finish_accepted();
     const double contraction = advance();
     if (residual_ > pace_.largest_residual) return give_up(k);
-    if (may_be_moving(contraction) && trial_.speed_ratio > kAtRest && !options_.control)
+    if (may_be_moving(contraction) && trial_.speed_ratio > kAtRest)
       if (std::optional<StaticSolution> answer = judge_motion(contraction)) return std::move(*answer);
     adapt(contraction);
   }

@@ -304,5 +304,19 @@ TEST(Path, RefusesAControlBlockThatDoesNotExist) {
   EXPECT_THROW(run(scene, couplet()), InputError);
 }
 
+// A block under its weight: it is not part of the load that grows.
+TEST(Path, TheForceOfAFreeControlIsTheLoadAdded) {
+  Case scene = testing::make_case(0.5, 1e-10, 0.01);
+  scene.loads.forces.push_back({BlockRef{1}, Vec3(0, 0, 0.5), Vec3(0, 0, -1e3), RampInTime{}});
+  scene.analysis.type = AnalysisType::path;
+  scene.analysis.path.steps = 2;
+  const PathResult result = run(scene, testing::box_on_floor({1, 1, 1}));
+  ASSERT_EQ(result.rows.size(), 3u) << result.summary.message;
+  for (size_t k = 0; k < result.rows.size(); ++k)
+    EXPECT_NEAR(result.rows[k][2], 500.0 * static_cast<double>(k), 1e-6) << "digits of path.csv";
+  EXPECT_NE(result.summary.message.find("largest added load 1000 N at 1 s"), std::string::npos)
+      << result.summary.message;
+}
+
 }  // namespace
 }  // namespace cupola::path_test
