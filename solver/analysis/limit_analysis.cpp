@@ -140,14 +140,25 @@ Status LimitRun::judge_the_case(StaticOutcome at_both_ends) {
 
 Bracket LimitRun::search_value() {
   const LimitSearch& limit = scene.analysis.limit;
-  return bisect(limit.low, limit.high,
-                {bracket_width(scene.analysis), 0.0, kZeroLimit * (limit.high - limit.low)},
-                [this](double value) -> std::optional<LimitTrial> {
-                  Probe probe = probe_at(value);
-                  const LimitTrial trial{value, probe.solution.outcome, probe.solution.speed_ratio};
-                  if (!keep(value, std::move(probe))) return std::nullopt;
-                  return trial;
-                });
+  const auto search_from = [&](double low) {
+    return bisect(low, limit.high,
+                  {bracket_width(scene.analysis), 0.0, kZeroLimit * (limit.high - limit.low)},
+                  [this](double value) -> std::optional<LimitTrial> {
+                    Probe probe = probe_at(value);
+                    const LimitTrial trial{value, probe.solution.outcome, probe.solution.speed_ratio};
+                    if (!keep(value, std::move(probe))) return std::nullopt;
+                    return trial;
+                  });
+  };
+  const Bracket whole = search_from(limit.low);
+  // A case that needs some of its loads has the largest factor on them as its limit.
+  const std::optional<double> own =
+      limit.parameter == LimitSearch::Parameter::load ? own_value(scene) : std::nullopt;
+  if (interrupted || whole.at_both_ends != StaticOutcome::moving || !own) return whole;
+  Bracket above = search_from(*own);
+  if (!above.found) return whole;
+  above.message += fmt::format("; it moves again at {:g}", limit.low);
+  return above;
 }
 
 /// By how much the support that moves most does between two factors of `spread`, turns included, m.

@@ -7,8 +7,8 @@
 
 namespace cupola {
 
-/// An equilibrium of a path: a row of path.csv. Its force is that of control_force(), of a free block less that
-/// at time 0.
+/// An equilibrium of a path: a row of path.csv. Its force is that of control_force(), of a free block less
+/// that at time 0.
 struct PathRow {
   double time, displacement, force, dissipated, mean_damage;
   int solves;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/analysis/admissible/direct_limit.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
 #include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/motion_proof.hpp"
 #include "solver/conic/opening_motion.hpp"
@@ -83,6 +84,11 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
   return limit;
 }
 
+/// A limit of linear loads, without what rounding makes of zero.
+double without_rounding(double value, double span) {
+  return std::abs(value) <= kZeroLimit * span ? 0.0 : value;
+}
+
 /// The structure moves at both ends of the bracket. It stands in between or outside, if at all.
 DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
                                const std::function<double(double)>& in_unit, DirectLimit limit) {
@@ -93,13 +99,19 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
   if (are_linear(scene_at, low, high)) {
     const ConicSolution greatest = solve_conic(from_low);
     const bool bounded = greatest.outcome == ConicOutcome::optimal;
-    const double end = bounded ? low + greatest.multipliers[0] : std::numeric_limits<double>::infinity();
+    const double end = bounded ? without_rounding(low + greatest.multipliers[0], high - low)
+                               : std::numeric_limits<double>::infinity();
     const std::string everywhere =
         fmt::format("the structure moves at every value from {:g} to {:g}", in_unit(low), in_unit(high));
     if (greatest.outcome == ConicOutcome::infeasible) {
       limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
     } else if (bounded && end > low && end < high) {
-      limit.message += fmt::format("; it stands up to {:g}", in_unit(end));
+      const ConicSolution least = solve_conic(largest_multiplier(scene_at, high, -1.0, &scene));
+      const std::string from =
+          least.outcome == ConicOutcome::optimal
+              ? fmt::format(" from {:g}", in_unit(without_rounding(high + least.multipliers[0], high - low)))
+              : "";
+      limit.message += fmt::format("; it stands{} up to {:g}", from, in_unit(end));
       limit.stands_at_both_ends.reset();  // it does not move throughout
     } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
       limit.message =
@@ -112,15 +124,17 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
   return limit;
 }
 
-/// "; it moves again beyond 1.2418": of linear loads of which the structure needs some, where they become too
-/// large; "" if they do not. `stands`: the end of the bracket towards larger loads.
+/// "; it moves again beyond 1.2418": of linear loads of which the structure needs some, the limit on the other
+/// side of the interval in which it stands; "" if there is none. `moves` and `stands`: the bracket of the
+/// limit sought.
 std::string other_limit(const SceneAt& scene_at, double moves, double stands) {
   if (!are_linear(scene_at, moves, stands)) return "";
   RigidScene scene;
-  const ConicSolution grown =
-      solve_conic(largest_multiplier(scene_at, stands, stands > moves ? 1.0 : -1.0, &scene));
+  const bool beyond = stands > moves;
+  const ConicSolution grown = solve_conic(largest_multiplier(scene_at, stands, beyond ? 1.0 : -1.0, &scene));
   if (grown.outcome != ConicOutcome::optimal) return "";
-  return fmt::format("; it moves again beyond {:.5g}", stands + grown.multipliers[0]);
+  const double value = without_rounding(stands + grown.multipliers[0], std::abs(stands - moves));
+  return fmt::format("; it moves again {} {:.5g}", beyond ? "beyond" : "below", value);
 }
 
 /// Moves one end of a bracket to its middle, and returns it; none if the solve there did not decide.
@@ -160,7 +174,7 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   const std::optional<bool> at_high = has_state(scene_at, high, &limit, report);
   std::string other;
   if (own && at_low == false && at_high == false && has_state(scene_at, *own, &limit, report) == true) {
-    other = fmt::format("; it moves at {:g} too", low);
+    other = other_limit(scene_at, high, *own);
     low = *own;
     at_low = true;
   } else if (own && at_low == false && at_high == true) {

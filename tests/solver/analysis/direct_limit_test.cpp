@@ -306,7 +306,17 @@ TEST(DirectLimit, WhatNoLoadHoldsMovesAtEveryValue) {
   ASSERT_TRUE(some.critical) << some.message;
   EXPECT_NEAR(some.critical->stable, 1.5, 1e-8) << "of the solve";
   EXPECT_GT(some.critical->moving, some.critical->stable);
-  EXPECT_NE(some.message.find("it moves at 0 too"), std::string::npos) << some.message;
+  EXPECT_NE(some.message.find("; it moves again below 0.5;"), std::string::npos) << some.message;
+  scene.analysis.limit.method = LimitSearch::Method::bisection;
+  const Summary bisected = run_limit(scene, box, {}).value();
+  ASSERT_TRUE(bisected.critical) << bisected.message;
+  EXPECT_NEAR(bisected.critical->stable, 1.5, 1e-3 * 1.5) << "width of the bracket";
+  EXPECT_NE(bisected.message.find("; it moves again at 0;"), std::string::npos) << bisected.message;
+  scene.analysis.limit.method = LimitSearch::Method::direct;
+  scene.loads.forces[0].force *= 1e-2;
+  const Summary between = run_limit(scene, box, {}).value();
+  EXPECT_NE(between.message.find("; it stands from 50 up to 150;"), std::string::npos) << between.message;
+  scene.loads.forces[0].force *= 1e2;
   scene.analysis.limit.high = 1.2;
   const Summary least = run_limit(scene, box, {}).value();
   ASSERT_TRUE(least.critical) << least.message;

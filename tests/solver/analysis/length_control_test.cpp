@@ -178,9 +178,9 @@ Case tilting_case(double weight, int steps, double length) {
   return scene;
 }
 
-// F = W tan(asin(x_c / R)) with x_c the distance of the centre from the edge, which falls from the first moment
-// on. Force and displacement of a row belong to one geometry: that at the start of a step of a fortieth has a
-// force that is 0.01 W larger. 5e-4: the joint shortens, and turns of a step are added to first order.
+// F = W tan(asin(x_c / R)) with x_c the distance of the centre from the edge, which falls from the first
+// moment on. Force and displacement of a row belong to one geometry: that at the start of a step of a fortieth
+// has a force that is 0.01 W larger. 5e-4: the joint shortens, and turns of a step are added to first order.
 TEST(LengthControl, FollowsABlockThatTiltsToItsUnstableBalance) {
   const Vec3 size(0.5, 0.4, 1.0);
   const double radius = 0.5 * std::hypot(size.x(), size.z());
@@ -197,8 +197,8 @@ TEST(LengthControl, FollowsABlockThatTiltsToItsUnstableBalance) {
   }
 }
 
-// At 0.25 m it balances by itself, and falls beyond: no force is left to hold it. 1 mm: its last step is a 64th
-// of 20 mm, and the joint shortens.
+// At 0.25 m it balances by itself, and falls beyond: no force is left to hold it. 1 mm: its last step is a
+// 64th of 20 mm, and the joint shortens.
 TEST(LengthControl, EndsWhereTheLoadComesBackToNothing) {
   const Assembly assembly = testing::box_on_floor({0.5, 0.4, 1.0});
   const PathResult result = run(tilting_case(assembly.blocks[1].mass * testing::kG, 20, 0.4), assembly);
