@@ -256,6 +256,10 @@ bool is_limit(const Evaluation& e) {
   return e.summary.analysis == AnalysisType::limit;
 }
 
+bool has_scaled_joints(const Evaluation& e) {
+  return e.summary.critical && e.summary.critical->parameter == "joint_extent";
+}
+
 bool is_rigid(const Evaluation& e) {
   return is_limit(e) || !e.summary.ranges.empty();
 }
@@ -388,8 +392,7 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   const TieTable& ties = e.last.frame.ties;
   e.reactions = support_reactions(e.assembly, e.last.joints, e.shell, ties,
                                   num_ties_of(ties, scene.supports.restraints));
-  if (e.summary.critical &&
-      e.summary.critical->parameter == "joint_extent")  // joints are shorter than supports
+  if (has_scaled_joints(e))  // not as long as the supports
     for (Reaction& r : e.reactions) r.length = std::numeric_limits<double>::quiet_NaN();
   e.parts = connected_parts(e.assembly, e.last.joints, ties);
   find_what_gives_way(results, &e);

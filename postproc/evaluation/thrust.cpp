@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -128,7 +129,8 @@ std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
     auto support = std::ranges::find(side->supports, bearer, &Reaction::block);
     if (support == side->supports.end()) support = side->supports.insert(support, {bearer, block.ring});
     support->outward += force;
-    support->length += support_length(joint, e.assembly, pushing, e.shell);
+    support->length += has_scaled_joints(e) ? std::numeric_limits<double>::quiet_NaN()  // not the support's
+                                            : support_length(joint, e.assembly, pushing, e.shell);
   }
   if (!sides[0]) sides[0].emplace();
   std::vector<Thrust> thrusts;

@@ -21,7 +21,7 @@ const RingSum& base_of(const Evaluation& evaluation, const Sheet& sheet);
 struct Thrust {
   double force = 0.0;              ///< N
   std::optional<Vec3> towards;     ///< of an arch: horizontal unit vector outwards at that springing
-  std::vector<Reaction> supports;  ///< its part on each, of joints alone
+  std::vector<Reaction> supports;  ///< its part on each, of joints alone; length: NaN of scaled joints
   bool on_blocks = false;          ///< also on blocks of other stacks
   bool held_higher = false;        ///< supports hold courses above the first, of an arch below its last, too
 };

@@ -40,6 +40,11 @@ std::string distance_text(const Evaluation& e, const std::string& unit) {
 
 }  // namespace
 
+std::string parameter_words(std::string parameter) {
+  std::ranges::replace(parameter, '_', ' ');
+  return parameter;
+}
+
 std::string distance_from_limit(double factor, const CriticalValue& critical) {
   return critical.stable < critical.moving ? fmt::format(" and bears {:.3g} times as much", factor)
                                            : fmt::format(", {:.3g} times what it needs", factor);
@@ -47,9 +52,9 @@ std::string distance_from_limit(double factor, const CriticalValue& critical) {
 
 namespace {
 
-/// "it moves again beyond 1.2418", of a search that has found another limit there; "" otherwise.
-std::string other_limit(const std::string& message) {
-  const size_t start = message.find("it moves again beyond ");
+/// The clause of a message that starts so, as "it moves again beyond 1.2418"; "" if it has none.
+std::string clause_of(const std::string& message, const char* begins) {
+  const size_t start = message.find(begins);
   return start == std::string::npos ? "" : message.substr(start, message.find("; ", start) - start);
 }
 
@@ -73,14 +78,20 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (!decides.empty())
     details.push_back(
         fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
-  if (const std::string other = other_limit(e.summary.message); !other.empty()) details.push_back(other);
+  if (const std::string other = clause_of(e.summary.message, "it moves again "); !other.empty())
+    details.push_back(other);
   if (const std::string direction = direction_of_limit(e.scene); !direction.empty())
     details.push_back(direction);
   if (shows_bracket(critical) || critical.value == 0.0)
     details.push_back(fmt::format("stands at {}, moves at {}", value_text(critical.stable, unit, 5),
                                   value_text(critical.moving, unit, 5)));
-  return {"Critical " + critical.parameter + varied_joints(e.scene.analysis.limit),
-          value_text(critical.stable, unit), fmt::format("{}", fmt::join(details, "; "))};
+  std::string name =
+      "Critical " + parameter_words(critical.parameter) + varied_joints(e.scene.analysis.limit);
+  if (critical.parameter == "peak_stress") {
+    name = "Least peak stress";
+    details.emplace_back("no forces that balance the loads have less everywhere");
+  }
+  return {name, value_text(critical.stable, unit), fmt::format("{}", fmt::join(details, "; "))};
 }
 
 /// An argument as a shell takes it: in quotes where it has other characters than plain names.
@@ -197,7 +208,8 @@ VerdictWords verdict_words(const Evaluation& e) {
   const std::optional<double> own = value_of_case(e.scene, critical.parameter);
   const bool unlimited = std::isinf(compressive_strengths(e.scene.joints).first);
   if (critical.parameter == "peak_stress" && unlimited) return words_of_run(e.summary);
-  if (!own) return {"Limit found", reached(e.summary.status)};  // which says nothing of the case
+  if (!own && !reached(e.summary.status)) return words_of_run(e.summary);
+  if (!own) return {"Limit found", true};  // which says nothing of the case
   const bool upwards = critical.stable < critical.moving;
   const bool proven = e.summary.friction_law == FrictionLaw::associated;
   const bool stands = upwards ? *own <= critical.stable : *own >= critical.stable;
@@ -223,12 +235,15 @@ KeyNumber margin_answer(const Evaluation& e) {
     return {"Horizontal acceleration", clause.starts_with("no horizontal") ? "no limit" : "unknown", clause};
   }
   const std::string of_limit =
-      to_string(e.scene.analysis.limit.parameter) + varied_joints(e.scene.analysis.limit);
+      parameter_words(to_string(e.scene.analysis.limit.parameter)) + varied_joints(e.scene.analysis.limit);
   if (is_limit(e) && at_rest(e))
     return {"Critical " + of_limit, stands(e.summary.status) ? lack_of_limit(e.summary.message) : "unknown",
             e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
-  if (is_limit(e) && moves(e.summary.status))
-    return {"Critical " + of_limit, "none", first_clause(e.summary.message)};
+  if (is_limit(e) && moves(e.summary.status)) {
+    const std::string between = clause_of(e.summary.message, "it stands from ");
+    return {"Critical " + of_limit, between.empty() ? "none" : "not found",
+            first_clause(e.summary.message) + (between.empty() ? "" : "; " + between)};
+  }
   if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
     return least_answer(e);
   if (!at_rest(e)) {

@@ -152,13 +152,6 @@ std::string assumptions(const Evaluation& e) {
   return fmt::format("{}", fmt::join(given, ", "));
 }
 
-/// "joint extent".
-std::string words_of(const CriticalValue& critical) {
-  std::string name = critical.parameter;
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 /// A critical factor on the loads of the case: which it multiplies, and which not.
 std::string factor_on_loads_text(const Loads& loads, double factor) {
   const auto is_fill = [](const FaceLoad& load) { return load.fill.has_value(); };
@@ -209,8 +202,8 @@ std::string limit_text(const Evaluation& e) {
     text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
   if (e.summary.friction_law == FrictionLaw::associated)
     text.insert(text.size() - 1, " (associated friction law)");
-  return text +
-         fmt::format(" Picture and thrust belong to the critical {}, not to the case.", words_of(critical));
+  return text + fmt::format(" Picture and thrust belong to the critical {}, not to the case.",
+                            parameter_words(critical.parameter));
 }
 
 /// A limit: existence on one side is certain; what lies beyond is as certain as the run says.
@@ -223,11 +216,13 @@ std::string certain_of_limit(const Evaluation& e) {
         "the stiffness of the joints.",
         standing, assumptions(e));
   // Nothing is less than none.
-  const std::string instead =
-      critical.stable == 0.0
-          ? ""
-          : fmt::format("; it may {} {}", critical.stable < critical.moving ? "fall at a lower" : "need more",
-                        words_of(critical));
+  const std::string instead = critical.stable == 0.0
+                                  ? ""
+                                  : fmt::format("; it may {} {}",
+                                                critical.stable < critical.moving     ? "fall at a lower"
+                                                : critical.parameter == "peak_stress" ? "need a higher"
+                                                                                      : "need more",
+                                                parameter_words(critical.parameter));
   return fmt::format(
       "{}: at {} forces balance the loads, whatever the stiffness of the joints and their history. Not "
       "certain: that it stands there under Coulomb's law, by which joints slide without opening{}. Assumed: "

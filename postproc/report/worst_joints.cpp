@@ -31,7 +31,7 @@ std::string joint_link(const Evaluation& e, size_t index) {
                      html_text(named_block(e, joint.block_a)), html_text(named_block(e, joint.block_b)));
 }
 
-std::string list_html(const char* heading, const std::string& items) {
+std::string list_html(const std::string& heading, const std::string& items) {
   return items.empty() ? "" : fmt::format("<p><strong>{}</strong></p>\n<ul>\n{}</ul>\n", heading, items);
 }
 
@@ -58,7 +58,9 @@ std::string at_rest_html(const Evaluation& e) {
   });
   if (worst.edge && ideal)
     out = "<li>No joint is near sliding or opening: every force is normal to its joint and central.</li>\n";
-  return list_html("Worst joints", out);
+  const std::string extent =
+      has_scaled_joints(e) ? fmt::format(", of {:.4g} times their extent", e.summary.critical->stable) : "";
+  return list_html("Worst joints" + extent, out);
 }
 
 std::string moving_html(const Evaluation& e) {

@@ -21,7 +21,8 @@ analysis: {type: path, tolerance: 1e-6, path: {steps: 20, length: 0.5, control: 
   const ProgramRun solve = folder.run("cupola-solve push.yaml --assembly a.vtu --output results");
   ASSERT_EQ(solve.code, 0) << solve.err;
   const auto rows = test::csv_numbers(slurp(folder.file("results/path.csv")));
-  ASSERT_EQ(rows.size(), 21U);
+  ASSERT_GE(rows.size(), 21U)
+      << "a step whose load is too large by its tolerance is proven to move, and halved";
   for (size_t k = 1; k < rows.size(); ++k) {
     double theta = 0.0;  // by Newton's method
     for (int i = 0; i < 20; ++i)
@@ -35,7 +36,7 @@ analysis: {type: path, tolerance: 1e-6, path: {steps: 20, length: 0.5, control: 
   ASSERT_EQ(post.code, 0) << post.err;
   for (const char* pvd : {"results/contacts.pvd", "post/blocks.pvd"}) {
     const auto entries = read_pvd(folder.file(pvd));
-    ASSERT_EQ(entries.size(), 21U) << pvd;
+    ASSERT_EQ(entries.size(), rows.size()) << pvd;
     for (size_t k = 0; k < entries.size(); ++k) EXPECT_EQ(entries[k].time, k) << "the times fall";
   }
   EXPECT_NE(slurp(folder.file("post/report.html")).find("Equilibria along the path"), std::string::npos);

@@ -1,10 +1,12 @@
 #include "postproc/report/first_screen.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "postproc/evaluation/thrust.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/gives_way.hpp"
 #include "postproc/report/motion.hpp"
@@ -109,6 +111,9 @@ TEST(FirstScreen, TheLeastExtentOfTheJointsIsAGeometricSafetyFactor) {
   EXPECT_EQ(first.value, "1.25");
   for (const std::string& sentence : finding_sentences(e))
     EXPECT_EQ(sentence.find("eometric safety"), std::string::npos) << sentence;
+  EXPECT_NE(worst_joints_html(e).find("Worst joints, of 0.8 times their extent"), std::string::npos);
+  EXPECT_TRUE(std::isnan(thrusts_of(e, e.assembly.sheets.front()).front().supports.front().length))
+      << "shrunk joints are not as long as their support";
 }
 
 // On which side of its limit the case lies, by which factor, and what gives way beyond it.

@@ -158,6 +158,27 @@ TEST(LimitAnswers, ALeastLoadNamesTheLargestOneToo) {
 }
 
 // Forces that do not balance at one end of the bracket decide nothing.
+TEST(LimitAnswers, WhatStandsBetweenTwoValuesOnlyHasBoth) {
+  Evaluation e = limit_of(LimitSearch::Parameter::acceleration, 0.0, 0.3, 0.4);
+  e.summary.critical.reset();
+  e.summary.status = Status::moving;
+  e.last.frame.role = FrameRole::mechanism;
+  e.summary.message =
+      "acceleration: the structure moves at both ends of the bracket, 0 and 1; it must stand at one; it "
+      "stands "
+      "from 0.3333 up to 0.6667; 1 group of blocks moves";
+  EXPECT_EQ(margin_answer(e).value, "not found");
+  EXPECT_TRUE(margin_answer(e).detail.ends_with("0 and 1; it stands from 0.3333 up to 0.6667"))
+      << margin_answer(e).detail;
+}
+
+TEST(LimitAnswers, AThicknessThatMissedItsWidthIsUndecided) {
+  Evaluation e = limit_of(LimitSearch::Parameter::thickness, 0.1, 0.36, 0.35);
+  EXPECT_EQ(verdict_words(e).words, "Limit found");
+  e.summary.status = Status::bracketed;
+  EXPECT_EQ(verdict_words(e).words, "Undecided") << "as the summary and the console say";
+}
+
 TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
   Evaluation e = limit_of(LimitSearch::Parameter::joint_extent, 0.0, 0.055, 0.054);
   e.summary.status = Status::unconverged;
@@ -173,6 +194,9 @@ TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
 TEST(LimitAnswers, AStressBeyondTheCompressiveStrengthIsItsFall) {
   Evaluation e = limit_of(LimitSearch::Parameter::peak_stress, 0.0, 1.7208e5, 1.7207e5);
   EXPECT_EQ(verdict_words(e).words, "It stands") << "strength without limit";
+  EXPECT_EQ(margin_answer(e).name, "Least peak stress");
+  EXPECT_NE(margin_answer(e).detail.find("no forces that balance the loads have less"), std::string::npos);
+  EXPECT_NE(certain_sentence(e).find("it may need a higher peak stress"), std::string::npos);
   e.scene.joints.strength.compression = 1.6e5;
   EXPECT_EQ(verdict_words(e).words, "It falls");
   EXPECT_TRUE(reason_for_verdict(e).starts_with(
