@@ -43,11 +43,11 @@ TEST(EdgeContact, OpenFacesBearOnlyWithinTheMargin) {
                                .update(turned_box(scene, Quaterniond(AngleAxisd(angle, Vec3::UnitY())), 0.0));
     double bearing = 0.0;
     for (const Contact& contact : set.points) bearing += bearing_area(contact, set.patches[contact.patch]);
-    // Gap over the place on the plane midway between both faces.
-    const double closed = angle > 0.0 ? std::min(1.0, 0.01 / (2.0 * std::tan(0.5 * angle))) : 1.0;
-    const double expected = angle < 0.35 ? closed * std::cos(0.5 * angle) : 0.0;
+    // On the plane midway between both faces, which a gap of 2 x tan(angle / 2) at x parts.
+    const double half = 0.5 * angle, width = angle > 0.0 ? 0.01 / (2.0 * std::tan(half)) : 1.0;
+    const double expected = angle < 0.35 ? std::min(std::cos(half), width) : 0.0;
     EXPECT_LE(bearing, expected + 1e-12) << angle;  // rounding
-    EXPECT_GE(bearing, 0.7 * expected) << angle;    // an eighth of the face has no points
+    EXPECT_GE(bearing, 0.6 * expected) << angle;    // the points at the edge alone stand for a 48th
   }
 }
 
