@@ -21,7 +21,10 @@ void fields(Visitor&& visit, Is<ContactTable> auto& c) {
   visit("normal_force_N", "N", "component along the normal; >= 0 without tensile strength", c.normal_force);
   visit("friction_use", "",
         "tangential force over cohesion times area + mu times normal force; 0 without force", c.friction_use);
-  visit("area_m2", "m2", "tributary area of the point; 0 on an edge or at a corner", c.area);
+  visit(
+      "area_m2", "m2",
+      "tributary area of the point, without what opens beyond `contact.margin`; 0 on an edge or at a corner",
+      c.area);
   visit("slip_m", "m", "accumulated sliding; `nan`: the faces have parted by more than `contact.margin`",
         c.slip);
   visit("law_violation", "",

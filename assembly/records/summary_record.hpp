@@ -60,7 +60,10 @@ void fields(Visitor&& visit, Is<Robustness> auto& r) {
 
 template <class Visitor>
 void fields(Visitor&& visit, Is<RangeEnd> auto& e) {
-  visit("outcome", "", "`bounded`, `unbounded` (by a self-stress without load), `unconverged`", e.outcome);
+  visit("outcome", "",
+        "`bounded`, `unbounded` (by a self-stress without load), `undefined` (a ratio to nothing), "
+        "`unconverged`",
+        e.outcome);
   visit("value", "", "attained by the state found", e.value);
   visit("bound", "", "nothing lies beyond, with forces of up to 1000 times the largest of that state",
         e.bound);
