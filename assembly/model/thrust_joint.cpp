@@ -27,20 +27,27 @@ bool bears(const Assembly& assembly, int lower, int upper, JointKind kind, const
          (rise >= -kLevel && kind != JointKind::head && !springs(assembly, assembly.blocks[lower]));
 }
 
-/// m, halfway between the ends of the stones of an arch along x in its own frame; 0 of others.
-double middle_of(const Assembly& assembly, const Sheet& sheet) {
-  if (sheet.thrust_lines != Sheet::ThrustLines::one) return 0.0;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+/// By sheet, m: halfway between the ends of the stones of an arch along x in its own frame; 0 of others.
+std::vector<double> middles_of(const Assembly& assembly) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, double>> ends(assembly.sheets.size(), {kFar, -kFar});
+  const Sheet* of_all =
+      assembly.num_rings == 0 && !assembly.sheets.empty() ? assembly.sheets.data() : nullptr;
   for (const Part& part : assembly.parts) {
-    if (assembly.blocks[part.block].fixed || (sheet.num_rings > 0 && !sheet.has_ring(part.ring))) continue;
+    const Sheet* sheet = of_all ? of_all : assembly.sheet_of(part.ring);
+    if (assembly.blocks[part.block].fixed || !sheet || sheet->thrust_lines != Sheet::ThrustLines::one)
+      continue;
+    auto& [low, high] = ends[sheet - assembly.sheets.data()];
     for (int f = part.face_start; f < part.face_start + part.num_faces; ++f)
       for (const int v : assembly.face(f)) {
-        const double x = sheet.own(assembly.vertices[v]).x();
+        const double x = sheet->own(assembly.vertices[v]).x();
         low = std::min(low, x);
         high = std::max(high, x);
       }
   }
-  return low <= high ? 0.5 * (low + high) : 0.0;
+  std::vector<double> middles;
+  for (const auto& [low, high] : ends) middles.push_back(low <= high ? 0.5 * (low + high) : 0.0);
+  return middles;
 }
 
 }  // namespace
@@ -58,9 +65,7 @@ std::vector<const Sheet*> pushing_sheets(const Assembly& assembly) {
   return pushing;
 }
 
-ThrustJoints::ThrustJoints(const Assembly& assembly) : assembly_(assembly) {
-  for (const Sheet& sheet : assembly.sheets) middles_.push_back(middle_of(assembly, sheet));
-}
+ThrustJoints::ThrustJoints(const Assembly& assembly) : assembly_(assembly), middles_(middles_of(assembly)) {}
 
 Vec3 ThrustJoints::outward(const Sheet& sheet, const Vec3& point) const {
   const double middle = middles_[&sheet - assembly_.sheets.data()];

@@ -73,44 +73,17 @@ std::pair<int, int> courses_built(const Assembly& assembly, const Sheet& sheet) 
   return {lowest < end ? lowest : first, highest};
 }
 
-}  // namespace
-
-std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
-  std::vector<const Sheet*> pushing = pushing_sheets(e.assembly);
-  std::erase_if(pushing, [&e](const Sheet* sheet) {
-    return sheet->num_rings == 0 || (!e.rings.empty() && base_of(e, *sheet).blocks == 0);
-  });
-  if (pushing.size() < 2 || e.rings.empty()) return pushing;
-  auto most = pushing.begin();
-  double greatest = thrusts_of(e, **most).front().force;
-  for (auto next = most + 1; next != pushing.end(); ++next)
-    if (const double force = thrusts_of(e, **next).front().force;
-        force > greatest && !alike(force, greatest)) {
-      most = next;
-      greatest = force;
-    }
-  std::rotate(pushing.begin(), most, most + 1);
-  return pushing;
-}
-
-int lowest_course(const Assembly& assembly, const Sheet& sheet) {
-  return courses_built(assembly, sheet).first;
-}
-
-const RingSum& base_of(const Evaluation& e, const Sheet& sheet) {
-  return e.rings.at(lowest_course(e.assembly, sheet));
-}
-
-bool alike(double a, double b) {
-  return std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b));
-}
-
-std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
+std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet, const ThrustJoints& thrust_joints) {
   const bool arch = sheet.thrust_lines == Sheet::ThrustLines::one;
-  const ThrustJoints thrust_joints(e.assembly);
   const auto [lowest, highest] = courses_built(e.assembly, sheet);
   std::array<std::optional<Thrust>, 2> sides;  // the second of an arch where its courses end
+  const auto [first, end] = e.assembly.stack_of(sheet.first_ring);
+  const auto is_of_stack = [&e, first = first, end = std::max(end, 1)](int block) {
+    const int ring = std::max(e.assembly.blocks[block].ring, 0);
+    return !e.assembly.blocks[block].fixed && ring >= first && ring < end;
+  };
   for (const JointWrench& joint : e.last.joints.wrenches) {
+    if (!is_of_stack(joint.block_a) && !is_of_stack(joint.block_b)) continue;
     const int bearer = thrust_joints.bearer(sheet, joint, joint.centroid, joint.patch.plane.normal);
     if (bearer < 0) continue;
     const bool far = thrust_joints.is_at_far_side(sheet, joint.centroid);
@@ -143,6 +116,43 @@ std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
   if (thrusts.size() > 1 && thrusts[1].force > thrusts[0].force && !alike(thrusts[0].force, thrusts[1].force))
     std::swap(thrusts[0], thrusts[1]);
   return thrusts;
+}
+
+}  // namespace
+
+std::vector<const Sheet*> pushing_sheets(const Evaluation& e) {
+  std::vector<const Sheet*> pushing = pushing_sheets(e.assembly);
+  std::erase_if(pushing, [&e](const Sheet* sheet) {
+    return sheet->num_rings == 0 || (!e.rings.empty() && base_of(e, *sheet).blocks == 0);
+  });
+  if (pushing.size() < 2 || e.rings.empty()) return pushing;
+  const ThrustJoints joints(e.assembly);
+  const auto force_of = [&](const Sheet* sheet) { return thrusts_of(e, *sheet, joints).front().force; };
+  auto most = pushing.begin();
+  double greatest = force_of(*most);
+  for (auto next = most + 1; next != pushing.end(); ++next)
+    if (const double force = force_of(*next); force > greatest && !alike(force, greatest)) {
+      most = next;
+      greatest = force;
+    }
+  std::rotate(pushing.begin(), most, most + 1);
+  return pushing;
+}
+
+int lowest_course(const Assembly& assembly, const Sheet& sheet) {
+  return courses_built(assembly, sheet).first;
+}
+
+const RingSum& base_of(const Evaluation& e, const Sheet& sheet) {
+  return e.rings.at(lowest_course(e.assembly, sheet));
+}
+
+bool alike(double a, double b) {
+  return std::abs(a - b) <= 1e-3 * std::max(std::abs(a), std::abs(b));
+}
+
+std::vector<Thrust> thrusts_of(const Evaluation& e, const Sheet& sheet) {
+  return thrusts_of(e, sheet, ThrustJoints(e.assembly));
 }
 
 std::optional<double> outward_thrust(const Evaluation& e) {
