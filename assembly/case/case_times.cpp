@@ -49,8 +49,7 @@ std::vector<std::string> jumps_of_supports(const Case& scene) {
         time && *time < scene.analysis.duration)
       out.push_back(
           fmt::format("supports.moves[{}].time: jumps within a step at {:g} s, and throws what stands on the "
-                      "support; let "
-                      "the motion begin at 0 and last several steps",
+                      "support; let the motion begin at 0 and last several steps",
                       i, *time));
   return out;
 }

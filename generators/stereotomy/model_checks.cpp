@@ -365,8 +365,7 @@ std::vector<std::string> warnings_of(const ModelReport& r, std::span<const Block
   for (const HangingCorner& corner : r.hanging_corners)
     warnings.push_back(fmt::format(
         "a corner of the member {} hangs in the air: no pier or support is under its springer, block {} "
-        "about "
-        "({:.4g}, {:.4g}, {:.4g}) m",
+        "about ({:.4g}, {:.4g}, {:.4g}) m",
         corner.member, corner.block, corner.centroid.x(), corner.centroid.y(), corner.centroid.z()));
   if (r.num_supports == 0) warnings.emplace_back(kNoBlockIsFixed);
   return warnings;

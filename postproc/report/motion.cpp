@@ -197,8 +197,7 @@ std::string how_sure_of_motion(const Evaluation& e) {
              "holds for every friction law: they differ only in how joints slide.";
     return analysis.friction_law == FrictionLaw::associated
                ? "A motion was found. That no forces balance the loads is not proven: in joints that jam, "
-                 "ties "
-                 "or restraints they might be too large for the accuracy of the solver."
+                 "ties or restraints they might be too large for the accuracy of the solver."
                : "A motion was found, but other contact forces might balance the loads; a range analysis "
                  "(analysis.type: range) shows whether any do.";
   }
@@ -213,8 +212,7 @@ std::string how_sure_of_motion(const Evaluation& e) {
                        length_text(*analysis.time_error));
   return fmt::format(
       "Certain: nothing beyond the motion computed. It was followed in steps of {:g} s, and it is not known "
-      "how much a "
-      "shorter step would change it: compare two runs, or set analysis.time_error.",
+      "how much a shorter step would change it: compare two runs, or set analysis.time_error.",
       s.time_step_s);
 }
 

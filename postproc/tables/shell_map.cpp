@@ -134,8 +134,7 @@ const Columns<ShellBox>& shell_columns() {
       {"ring", "", "ring of the unrolled shell", &B::ring},
       {"from", "",
        "where the block begins: azimuth in deg, in wall.csv m along the wall, in arch.csv y in m; of a "
-       "turned "
-       "member in its own frame",
+       "turned member in its own frame",
        &B::from},
       {"to", "", "where the block ends", &B::to},
       {"meridional_force_N_per_m", "N/m",

@@ -251,8 +251,7 @@ std::string end_at_sound_stones(const Assembly& assembly, LimitSearch* limit) {
   if (limit->high <= most.factor) return "";
   const std::string why = fmt::format(
       "beyond a thickness factor of {:.5g} block {} turns inside out, where beds meet inside the shell or "
-      "the "
-      "intrados reaches the axis",
+      "the intrados reaches the axis",
       most.factor, most.block);
   if (limit->low >= most.factor)
     throw InputError(fmt::format("analysis.limit.low = {:g}: {}", limit->low, why));

@@ -248,8 +248,7 @@ void PathRun::judge(double started) {
     if (came_back_)
       summary_.message += fmt::format(
           "; before the length of the path, {:g} m, the loads came back to those at 0 s: beyond, the "
-          "structure "
-          "moves by itself",
+          "structure moves by itself",
           *options_.length);
     else if (options_.length && is_end(path_.value()))
       summary_.message += fmt::format("; the latest time, {:g} s, came before the length of the path, {:g} m",

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "assembly/base/error.hpp"
 #include "generators/generate.hpp"
 
 namespace cupola {
@@ -10,6 +13,16 @@ inline Assembly check_and_report(const Case& c, ModelReport* report) {
   Assembly assembly = generate(c, &whole);
   *report = whole.model;
   return assembly;
+}
+
+/// The message with which the generator refuses a case; "" if it does not.
+inline std::string refusal_of(const Case& c) {
+  try {
+    generate(c);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
 }
 
 inline Case dome_case(int rings = 40, int blocks_per_ring = 32, int slices_per_block = 4) {

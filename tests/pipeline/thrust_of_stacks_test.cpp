@@ -80,8 +80,7 @@ TEST(ThrustOfStacks, ARangeOfTheThrustIsThatOfEachStack) {
   const auto arch = [](double span) {
     return fmt::format(
         "surface: {{type: arch, span: {}, radius_ratio: 0.6, thickness: 0.4, width: 1}}, bond: {{type: "
-        "stack, "
-        "rings: 10, blocks_per_ring: 1}}",
+        "stack, rings: 10, blocks_per_ring: 1}}",
         span);
   };
   const Case both =

@@ -318,12 +318,12 @@ TEST(VaultAnswers, TheRangeOfAThrustCountsSupportsAndOtherMembers) {
 std::string barrel_on_walls(double horizontal) {
   return fmt::format(
       "geometry:\n  surface: {{type: vault, plan: {{type: line, length: 3}}, profile: {{type: chain, r: [2, "
-      "2, 0], z: "
-      "[0, 1, 3], radius: [0, 2]}}}}\n  wythes:\n    - {{name: masonry, thickness: {{heights: [1, 1.01], "
-      "values: "
-      "[1.2, 0.5]}}, bond: {{type: stack, rings: 16, blocks_per_ring: 2}}}}\njoints: {{friction: 0.7, "
-      "compliance: "
-      "{{per: area}}}}\nloads: {{faces: [{{fill: {{level: 4, unit_weight: 16000, horizontal: {}}}}}]}}\n",
+      "2, 0], z: [0, 1, 3], radius: [0, 2]}}}}\n  wythes:\n    - {{name: masonry, thickness: {{heights: [1, "
+      "1.01], "
+      "values: [1.2, 0.5]}}, bond: {{type: stack, rings: 16, blocks_per_ring: 2}}}}\njoints: {{friction: "
+      "0.7, "
+      "compliance: {{per: area}}}}\nloads: {{faces: [{{fill: {{level: 4, unit_weight: 16000, horizontal: "
+      "{}}}}}]}}\n",
       horizontal);
 }
 

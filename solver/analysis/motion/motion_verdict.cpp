@@ -38,11 +38,9 @@ std::string coarse_text(const Analysis& analysis, const RunProgress& progress) {
 std::string elastic_text(const Analysis& analysis, const RunProgress& progress) {
   return fmt::format(
       "blocks met and bounced in {}, overlapping by up to {:.2g} m: their joints, elastic {}, take {:.1e} s "
-      "to "
-      "stop them, longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all with "
-      "rigid "
-      "joints "
-      "(compliance 0){}",
+      "to stop them, longer than the step. They hardly bounce with `analysis.damping: {:.1e}`, not at all "
+      "with "
+      "rigid joints (compliance 0){}",
       counted(progress.elastic_steps, "step"), progress.deepest,
       analysis.damping > 0.0 ? fmt::format("with a damping of {:g} s", analysis.damping) : "without damping",
       progress.elastic_impact, 2.0 * progress.elastic_impact,
@@ -104,8 +102,7 @@ std::vector<std::string> motion_warnings(const Analysis& analysis, const RunProg
   if (progress.starts_unstable)
     warnings.emplace_back(
         "unstable balance at the start, as on an edge: a small disturbance would end it, so that rest "
-        "without "
-        "one is no evidence that the structure stands");
+        "without one is no evidence that the structure stands");
   if (progress.fast_steps > 0) warnings.push_back(fast_text(analysis, progress));
   if (progress.elastic_steps > 0) warnings.push_back(elastic_text(analysis, progress));
   return warnings;

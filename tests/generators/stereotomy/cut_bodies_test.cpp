@@ -16,11 +16,13 @@
 namespace cupola::cut_bodies_test {
 namespace {
 
+using test::barrel;
 using test::kHeight;
 using test::kInner;
 using test::kLength;
 using test::kThickness;
 using test::plane;
+using test::volume_of;
 using test::wall;
 
 Cut prism(std::vector<double> y, std::vector<double> z) {
@@ -30,15 +32,6 @@ Cut prism(std::vector<double> y, std::vector<double> z) {
   cut.u = std::move(y);
   cut.v = std::move(z);
   return cut;
-}
-
-/// m3, checked.
-double volume_of(const Case& c, ModelReport* report) {
-  check_and_report(c, report);
-  EXPECT_LT(report->max_convexity_error, 1e-13);
-  EXPECT_LT(report->max_overlap, 1e-10);
-  EXPECT_NEAR(report->parts_volume, report->volume, 1e-12 * report->volume);
-  return report->volume;
 }
 
 constexpr double kWhole = kLength * kHeight * kThickness;
@@ -282,16 +275,6 @@ TEST(CutBodies, AJointPartsBlocks) {
   }
 }
 
-VaultSurface barrel(double span, double thickness, double length) {
-  VaultSurface surface;
-  surface.plan.kind = Plan::Kind::line;
-  surface.plan.length = length;
-  surface.profile.kind = Profile::Kind::semicircle;
-  surface.profile.span = span;
-  surface.thickness = thickness;
-  return surface;
-}
-
 /// x > 0 of a polygonal semicircle with n courses at a height.
 double half_width(double radius, int n, double z) {
   for (int k = 0; 2 * k < n; ++k) {
@@ -347,107 +330,25 @@ TEST(CutBodies, ALunetteIsCutUnderTheOtherBarrel) {
   EXPECT_NEAR(volume / expected, 1.0, 1e-10);  // of the inset
 }
 
-std::string message_of(const Case& c) {
-  try {
-    generate(c);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-/// A corridor that turns a corner: a barrel along y up to its mitre with one along x.
-Case corridor(const Vec3& origin_of_second) {
-  Member first, second;
-  first.name = "first";
-  first.surface = barrel(4.0, 0.4, 8.0);
-  first.bond = RunningBond{9, 8, 2};
-  first.cuts = {plane({0.0, 5.0, 0.0}, {1.0, 1.0, 0.0}, Cut::As::mitre)};
-  first.cuts[0].member = "second";
-  second.name = "second";
-  second.surface = first.surface;
-  second.bond = first.bond;
-  second.at = Place{origin_of_second, -90.0};
-  Case c;
-  c.geometry.members = {first, second};
-  c.geometry.has_shell = false;
-  return c;
-}
-
-// Each barrel is 5 m long in its middle, and longer on one side by what it is shorter on the other. Its
-// section lies between two half polygons of 18 sides.
-TEST(CutBodies, AMitreCutsBothMembers) {
-  const Case c = corridor({-3.0, 5.0, 0.0});
-  ModelReport report;
-  const double section = 9.0 / 2.0 * std::sin(std::numbers::pi / 9) * (2.4 * 2.4 - 2.0 * 2.0);
-  EXPECT_NEAR(volume_of(c, &report), 2.0 * 5.0 * section, 1e-12 * 10.0);
-  EXPECT_EQ(report.islands, 1);
-  EXPECT_LT(report.max_joint_gap, 1e-10);
-  const Assembly assembly = cut_assembly(c);
-  double area = 0.0;  // m2, of both sides of the mitre: the section, seen at 45 degrees
-  for (const Part& part : assembly.parts) {
-    if (assembly.blocks[part.block].fixed) continue;
-    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-      const std::vector<Vec3> points = face_points(assembly, f);
-      if (!std::ranges::all_of(points, [](const Vec3& p) { return std::abs(p.x() + p.y() - 5.0) < 1e-12; }))
-        continue;
-      area += polygon_area(points);
-      EXPECT_EQ(assembly.face_kinds[f], FaceKind::head);
-    }
-  }
-  EXPECT_NEAR(area, 2.0 * std::numbers::sqrt2 * section, 1e-12);
-}
-
-TEST(CutBodies, AMitreIsRefusedWhereTheMembersDoNotMeet) {
-  EXPECT_NE(message_of(corridor({-3.0, 5.0, 4.0})).find("no stone of first meets one of second on the plane"),
-            std::string::npos)
-      << message_of(corridor({-3.0, 5.0, 4.0}));
-  EXPECT_NE(message_of(corridor({5.0, 5.0, 0.0}))
-                .find("geometry.members[0].cuts[0].member = second: the cut takes nothing"),
-            std::string::npos)
-      << message_of(corridor({5.0, 5.0, 0.0}));
-}
-
-TEST(CutBodies, AMitreOfACopyCutsTheCopyOfTheOtherMember) {
-  const Case one = corridor({-3.0, 5.0, 0.0});
-  ModelReport report;
-  const double volume = volume_of(one, &report);
-  Case row = one, image = one, alone = one, itself = one;
-  for (Member& member : row.geometry.members) member.copies = Copies{2, std::nullopt, {0.0, 20.0, 0.0}};
-  for (Member& member : image.geometry.members) member.mirror = Mirror{{0.0, -3.0, 0.0}, {0.0, 1.0, 0.0}};
-  for (const Case& two : {row, image}) {
-    EXPECT_NEAR(volume_of(two, &report), 2.0 * volume, 1e-11);  // rounding of coordinates up to 30 m
-    EXPECT_EQ(report.islands, 2);
-  }
-  alone.geometry.members[0].copies = Copies{3, std::nullopt, {0.0, 20.0, 0.0}};
-  alone.geometry.members[1].copies = Copies{2, std::nullopt, {0.0, 20.0, 0.0}};
-  itself.geometry.members[0].copies = Copies{4, Vec3(-3.0, 5.0, 0.0), Vec3::Zero()};
-  itself.geometry.members[0].cuts[0].member = "first 2";
-  for (const auto& [refused, who] : {std::pair(&alone, "first 3"), std::pair(&itself, "first")})
-    EXPECT_NE(message_of(*refused).find("that has its number, which " + std::string(who) + " does not have"),
-              std::string::npos)
-        << message_of(*refused);
-}
-
 TEST(CutBodies, AreRefusedIfTheyTakeNothingOrAll) {
-  EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes nothing"),
+  EXPECT_NE(refusal_of(wall({plane({0, 9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes nothing"),
             std::string::npos);
   EXPECT_NE(
-      message_of(wall({plane({0, -9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes all blocks"),
+      refusal_of(wall({plane({0, -9, 0}, {0, 1, 0})})).find("geometry.cuts[0]: the cut takes all blocks"),
       std::string::npos);
-  EXPECT_NE(message_of(wall({plane({0, 9, 0}, {0, 1, 0}, Cut::As::joint)}))
+  EXPECT_NE(refusal_of(wall({plane({0, 9, 0}, {0, 1, 0}, Cut::As::joint)}))
                 .find("geometry.cuts[0]: the plane parts no block"),
             std::string::npos);
   // The support under the wall reaches 1 m beyond its end.
-  EXPECT_NE(message_of(wall({plane({0, kLength + 0.5, 0}, {0, 1, 0}, Cut::As::held)}))
+  EXPECT_NE(refusal_of(wall({plane({0, kLength + 0.5, 0}, {0, 1, 0}, Cut::As::held)}))
                 .find("geometry.cuts[0].as = held: the plane meets a support only"),
             std::string::npos);
   Cut under;
   under.kind = Cut::Kind::under;
   under.member = "nave";
-  EXPECT_NE(message_of(wall({under})).find("geometry.cuts[0].member = nave: must be another member"),
+  EXPECT_NE(refusal_of(wall({under})).find("geometry.cuts[0].member = nave: must be another member"),
             std::string::npos);
-  EXPECT_NE(message_of(wall({prism({-1, 5, 5, -1}, {1.2, 1.2, 1.3, 1.3})})).find("shell floats"),
+  EXPECT_NE(refusal_of(wall({prism({-1, 5, 5, -1}, {1.2, 1.2, 1.3, 1.3})})).find("shell floats"),
             std::string::npos);
 }
 

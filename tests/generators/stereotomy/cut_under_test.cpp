@@ -73,25 +73,16 @@ TEST(CutUnder, IsShearedAsTheBarrel) {
           << "end " << end << ", rake " << affine.rake << ", lean " << affine.lean;
 }
 
-std::string message_of(const Case& c) {
-  try {
-    generate(c);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(CutUnder, RequiresASectionThatStaysBetweenItsSpringings) {
   Case c = wall_over_barrel(4.0, {});
   c.geometry.members[0].surface = barrel(Profile::Kind::horseshoe).surface;
-  std::string text = message_of(c);
+  std::string text = refusal_of(c);
   EXPECT_NE(
       text.find("geometry.members[1].cuts[0].member = barrel: its section reaches beyond its springings"),
       std::string::npos)
       << text;
   c.geometry.members[0].surface = WallSurface{.length = 4.0, .height = 1.0, .thickness = 0.5};
-  text = message_of(c);
+  text = refusal_of(c);
   EXPECT_NE(text.find("geometry.members[1].cuts[0].member = barrel: spans nothing"), std::string::npos)
       << text;
 }

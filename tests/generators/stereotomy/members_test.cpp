@@ -312,15 +312,6 @@ TEST(Members, StandBesideTheEndNotBesideAJoint) {
   }
 }
 
-std::string message_of(const Case& c) {
-  try {
-    generate(c);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 // Two piers with a gap of 0.3 m, each on a support that would reach 1 m beyond it, under the other: they end
 // in the middle of the gap, also where a drain through the foot leaves three parts of each support.
 TEST(Members, StandOnTheirOwnSupportsOnly) {
@@ -383,16 +374,16 @@ TEST(Members, OfOneEntryHaveNamesIfItIsRepeated) {
 TEST(Members, AreRefusedWithTheirNames) {
   Member low = tower("low", 10.0), wide = tower("wide", 20.0), beside = tower("beside", 10.0);
   wide.on = "low";
-  EXPECT_NE(message_of(members_case({low, wide})).find("the member wide floats"), std::string::npos);
+  EXPECT_NE(refusal_of(members_case({low, wide})).find("the member wide floats"), std::string::npos);
   Member arch;  // from the air above the inside of the tower to a support of its own
   arch.name = "arch";
   arch.on = "low";
   arch.surface = ArchSurface{.span = 3.0};
   arch.bond = StackBond{11, 1, 1, {}};
-  EXPECT_NE(message_of(members_case({low, arch})).find("geometry.members[1].on = low: nothing of arch"),
+  EXPECT_NE(refusal_of(members_case({low, arch})).find("geometry.members[1].on = low: nothing of arch"),
             std::string::npos);
   beside.at = Place{{8.0, 0.0, 0.0}, 0.0};
-  EXPECT_NE(message_of(members_case({low, beside})).find("move one member by `at`"), std::string::npos);
+  EXPECT_NE(refusal_of(members_case({low, beside})).find("move one member by `at`"), std::string::npos);
   Member cap = tower("cap", 10.0);
   cap.on = "low";
   VaultSurface segment;
@@ -401,7 +392,7 @@ TEST(Members, AreRefusedWithTheirNames) {
   segment.thickness = 0.5;
   segment.eye = 1.0;
   cap.surface = segment;
-  EXPECT_NE(message_of(members_case({low, cap})).find("the first bed of cap is not level"),
+  EXPECT_NE(refusal_of(members_case({low, cap})).find("the first bed of cap is not level"),
             std::string::npos);
 }
 

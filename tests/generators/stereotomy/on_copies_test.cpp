@@ -12,15 +12,6 @@
 namespace cupola::on_copies_test {
 namespace {
 
-std::string error_of(const Case& scene) {
-  try {
-    generate(scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 Member pier(const Place& at) {
   Member member;
   member.name = "pier";
@@ -157,18 +148,18 @@ TEST(OnCopies, SeveralMembersMayShareThem) {
 TEST(OnCopies, WhatHangsIsRefused) {
   Case far = arcade(), one = arcade(), lone = arcade();
   far.geometry.copies->count = 4;  // the last foot lies where a fifth pier would stand
-  EXPECT_NE(error_of(far).find("geometry.at: nothing stands under the foot of shell 4 at (15.5, 0, 3) m"),
+  EXPECT_NE(refusal_of(far).find("geometry.at: nothing stands under the foot of shell 4 at (15.5, 0, 3) m"),
             std::string::npos)
-      << error_of(far);
+      << refusal_of(far);
   lone.geometry.members[0].copies.reset();
   lone.geometry.copies.reset();
-  EXPECT_NE(error_of(lone).find("geometry.at: nothing stands under the foot of shell at (3.5, 0, 3) m"),
+  EXPECT_NE(refusal_of(lone).find("geometry.at: nothing stands under the foot of shell at (3.5, 0, 3) m"),
             std::string::npos)
-      << error_of(lone);
+      << refusal_of(lone);
   one.geometry.surface = WallSurface{1.0, 1.0, 1.0};
-  EXPECT_NE(error_of(one).find("geometry.at: a member that stands on pier lies on its axis"),
+  EXPECT_NE(refusal_of(one).find("geometry.at: a member that stands on pier lies on its axis"),
             std::string::npos)
-      << error_of(one);
+      << refusal_of(one);
 }
 
 }  // namespace

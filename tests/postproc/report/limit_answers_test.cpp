@@ -165,8 +165,7 @@ TEST(LimitAnswers, WhatStandsBetweenTwoValuesOnlyHasBoth) {
   e.last.frame.role = FrameRole::mechanism;
   e.summary.message =
       "acceleration: the structure moves at both ends of the bracket, 0 and 1; it must stand at one; it "
-      "stands "
-      "from 0.3333 up to 0.6667; 1 group of blocks moves";
+      "stands from 0.3333 up to 0.6667; 1 group of blocks moves";
   EXPECT_EQ(margin_answer(e).value, "not found");
   EXPECT_TRUE(margin_answer(e).detail.ends_with("0 and 1; it stands from 0.3333 up to 0.6667"))
       << margin_answer(e).detail;

@@ -399,34 +399,6 @@ TEST(Range, OfARodIsThatOfItsTieLessItsStrut) {
   }
 }
 
-// Only a limit has another method.
-TEST(Range, CohesionWithoutFrictionIsRefusedWithAdviceThatHelps) {
-  Case scene = range_case(0.0, {joint(0, 1, JointForce::Component::normal)});
-  scene.joints.compliance.per = Compliance::Per::area;
-  scene.joints.strength.cohesion = 1e5;
-  const Assembly assembly = testing::box_on_floor({1.0, 1.0, 1.0});
-  const auto refusal = [&](AnalysisType type) {
-    scene.analysis.type = type;
-    try {
-      rigid_scene(scene, std::make_shared<const Assembly>(assembly));
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  const std::string range = refusal(AnalysisType::range);
-  EXPECT_TRUE(range.ends_with("give joints.friction")) << range;
-  EXPECT_EQ(refusal(AnalysisType::limit), range + ", or analysis.limit.method: bisection");
-  scene.analysis.limit.parameter = LimitSearch::Parameter::joint_extent;
-  EXPECT_EQ(refusal(AnalysisType::limit), range) << "which bisection does not apply to";
-  scene.joints.friction = 0.4;
-  scene.joints.base.emplace();
-  scene.joints.base->friction = 0.0;
-  const std::string of_class = refusal(AnalysisType::range);
-  EXPECT_TRUE(of_class.ends_with("give joints.base.friction")) << of_class;
-}
-
-}  // namespace
 // An inclined tie with a slope of 3/4 pulls a box aside: S in it presses the box down by 0.6 S on the floor,
 // which rubs against 0.8 S, and the anchor bears S alone. 0.8 S <= 0.3 (W + 0.6 S): S <= 0.3 W / 0.62.
 TEST(Range, OfASupportCountsTheTiesAnchoredInIt) {
@@ -452,4 +424,5 @@ TEST(Range, OfASupportCountsTheTiesAnchoredInIt) {
   expect_ends(summary.ranges[2], weight, weight, weight);
 }
 
+}  // namespace
 }  // namespace cupola::range_test
