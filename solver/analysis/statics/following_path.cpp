@@ -1,16 +1,18 @@
 #include "solver/analysis/statics/following_path.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
-
-#include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
 
 FollowingPath::FollowingPath(const Model& model, const State& start, const ContactSet& contacts,
-                             const ContactMemories& memories, const StaticOptions& options)
-    : ProximalPoint(model, start, contacts, memories, options, {250, 0.1, 0.03}) {}
+                             const ContactMemories& memories, const StaticOptions& options,
+                             double least_motion, std::function<StaticSolution()> shortcut)
+    : ProximalPoint(model, start, contacts, memories, options, {250, 0.1, 0.03}),
+      least_motion_(least_motion),
+      shortcut_(std::move(shortcut)) {}
 
 void FollowingPath::iterate() {
   constexpr int kIterations = 15;    // within which a point of the path converges, or h is too large
@@ -62,26 +64,28 @@ double FollowingPath::advance() {
 
 /// True if blocks have moved by 100 times the settlement since the residual last fell by a quarter below its
 /// lowest value. During a collapse it fluctuates above that value.
-bool FollowingPath::moves_far() {
+bool FollowingPath::moves_slowly() {
   constexpr double kFall = 0.75, kFar = 100.0;
-  // Heads softer than the bed engage after a slip that is long compared with the settlement on the bed.
-  constexpr double kShareOfBlock = 0.05;
   if (residual_ < kFall * lowest_residual_) {
     lowest_residual_ = residual_;
     travel_ = 0.0;
     return false;
   }
   travel_ += largest_speed(moved_);
-  const double far = options_.follow_from_start
-                         ? std::max(kFar * settlement_, kShareOfBlock * smallest_block_size(*model_.assembly))
-                         : kFar * settlement_;
-  return trial_.speed_ratio > kAtRest && travel_ > far;
+  return trial_.speed_ratio > kAtRest && travel_ > kFar * settlement_;
 }
 
 std::optional<StaticSolution> FollowingPath::judge_motion(double) {
-  if (!moves_far()) return {};
-  return finish_moving(fmt::format(" and have moved by {:.3g} m, {:.0f} times their first settlement",
-                                   travel_, travel_ / settlement_));
+  if (!moves_slowly()) return {};
+  if (travel_ > least_motion_)
+    return finish_moving(fmt::format(" and have moved by {:.3g} m, {:.0f} times their first settlement",
+                                     travel_, travel_ / settlement_));
+  if (!shortcut_) return {};
+  StaticSolution found = std::exchange(shortcut_, nullptr)();
+  trial_.iterations += found.iterations;
+  if (found.outcome != StaticOutcome::equilibrium) return {};
+  found.iterations = trial_.iterations;
+  return found;
 }
 
 }  // namespace cupola

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 
 #include "solver/analysis/statics/proximal_point.hpp"
@@ -11,8 +12,11 @@ namespace cupola {
 /// needs.
 class FollowingPath : public ProximalPoint {
  public:
+  /// `least_motion`: m, by which blocks must move before their motion is called steady. `shortcut`: seeks an
+  /// equilibrium elsewhere, once, where they have moved by many settlements, but less.
   FollowingPath(const Model& model, const State& start, const ContactSet& contacts,
-                const ContactMemories& memories, const StaticOptions& options);
+                const ContactMemories& memories, const StaticOptions& options, double least_motion,
+                std::function<StaticSolution()> shortcut);
 
  private:
   void iterate() override;
@@ -21,8 +25,10 @@ class FollowingPath : public ProximalPoint {
   std::optional<StaticSolution> judge_motion(double contraction) override;
   double advance() override;
 
-  bool moves_far();
+  bool moves_slowly();
 
+  const double least_motion_;
+  std::function<StaticSolution()> shortcut_;                   // empty: tried, or none
   double settlement_ = 0.0;                                    // m, largest displacement of the first iterate
   double failed_h_ = std::numeric_limits<double>::infinity();  // s, step at which Newton failed last
   double lowest_residual_ = std::numeric_limits<double>::infinity();  // steps of a quarter

@@ -96,15 +96,21 @@ double largest_displacement_of(const StaticSolution& solution) {
   return largest_speed(solution.step_solution.v) * solution.h;
 }
 
-/// True if the path showed nothing: it ended without a verdict, or called a motion steady before any block
-/// had moved by 1 % of the smallest, or as far as in the equilibrium under the associated law. Stiff joints
-/// beside soft ones, or nearly rigid ones, do that, and slender towers, which sway by far more than they
-/// settle.
-bool shows_nothing(const Model& model, const StaticSolution& solution, const StaticSolution& associated) {
-  constexpr double kShare = 0.01;
+/// By how much blocks must move, m, before their motion shows more than settlement. Stiff joints beside soft
+/// ones, or nearly rigid ones, seem to move steadily over less, and slender towers, which sway by far more
+/// than they settle. `associated`: null if the structure has no equilibrium under that law.
+double least_motion(const Model& model, const StaticOptions& options, const StaticSolution* associated) {
+  constexpr double kShare = 0.01;           // of the smallest block
+  constexpr double kShareFromStart = 0.05;  // heads softer than the bed engage after a long slip
+  const double size = smallest_block_size(*model.assembly);
+  if (options.follow_from_start) return kShareFromStart * size;
+  return associated ? std::max(kShare * size, largest_displacement_of(*associated)) : 0.0;
+}
+
+/// True if the path showed nothing: it ended without a verdict, or called a short motion steady.
+bool shows_nothing(const StaticSolution& solution, double least) {
   if (solution.outcome != StaticOutcome::moving) return solution.outcome == StaticOutcome::unconverged;
-  return largest_displacement_of(solution) <
-         std::max(kShare * smallest_block_size(*model.assembly), largest_displacement_of(associated));
+  return largest_displacement_of(solution) < least;
 }
 
 /// A proven motion under the associated law: the other laws admit the same forces.
@@ -128,73 +134,98 @@ bool has_exact_forces(const StaticSolution& solution, const VecX& loads) {
   return proves_equilibrium(problem, problem.h * loads, solution.step_solution.gamma);
 }
 
-/// Of a non-associated law: along a path, if the method and the joints permit it.
+/// Iterations of a contact solve near its solution. Stages of domes take 2 to 5, of walls whose fresh beds
+/// slide up to 20, steps of paths 4 to 9: several times less than from afar.
+int few_iterations(const StaticOptions& options) {
+  constexpr int kIterations = 25;
+  return std::min(options.solve.max_iterations.value_or(kIterations), kIterations);
+}
+
+/// Of a non-associated law, from the solution under the associated one.
+StaticSolution solve_from_associated(const Model& model, const State& start, const ContactSet& contacts,
+                                     const ContactMemories& memories, const StaticOptions& options,
+                                     const StaticSolution& associated) {
+  ComingToRest run(model, start, contacts, memories, options, ComingToRest::Start::associated);
+  run.start_from(associated);
+  return run.run();
+}
+
+/// Of a non-associated law: along a path, if the method and the joints permit it. `associated`: null if the
+/// structure has no equilibrium under that law.
 StaticSolution solve_from_start(const Model& model, const State& start, const ContactSet& contacts,
-                                const ContactMemories& memories, const StaticOptions& options) {
-  if (options.solve.method == ContactMethod::newton &&
-      std::isfinite(largest_static_step(model, start, contacts)))
-    return FollowingPath(model, start, contacts, memories, options).run();
-  return ComingToRest(model, start, contacts, memories, options).run();
+                                const ContactMemories& memories, const StaticOptions& options,
+                                const StaticSolution* associated) {
+  if (options.solve.method != ContactMethod::newton ||
+      !std::isfinite(largest_static_step(model, start, contacts)))
+    return ComingToRest(model, start, contacts, memories, options).run();
+  std::function<StaticSolution()> shortcut;
+  if (associated && !options.follow_from_start) {
+    shortcut = [&] {
+      StaticOptions few = options;
+      few.solve.max_iterations = few_iterations(options);
+      return solve_from_associated(model, start, contacts, memories, few, *associated);
+    };
+  }
+  return FollowingPath(model, start, contacts, memories, options, least_motion(model, options, associated),
+                       std::move(shortcut))
+      .run();
 }
 
 /// Near the start, an equilibrium but for what `options.nearby` names. Unconverged if none is found quickly.
 StaticSolution solve_nearby(const Model& model, const State& start, const ContactSet& contacts,
                             const ContactMemories& memories, const StaticOptions& options) {
-  // Stages of domes take 2 to 5, of walls whose fresh beds slide up to 20, steps of paths 4 to 9: several times
-  // less than from afar.
-  constexpr int kIterations = 25;
   if (!options.nearby || options.solve.method != ContactMethod::newton) return {};
   // Under the associated law a start from rest is no better than one from afar, from where a control finds its
   // time in a sixth of the iterations (wall_griffith_mortar).
   if (options.solve.law.is_associated() && (options.nearby->displacement.size() == 0 || options.control))
     return {};
   StaticOptions few = options;
-  few.solve.max_iterations = std::min(options.solve.max_iterations.value_or(kIterations), kIterations);
+  few.solve.max_iterations = few_iterations(options);
   few.solve.near_solution = true;
   ComingToRest nearby(model, start, contacts, memories, few, ComingToRest::Start::nearby);
   return nearby.start_near(*options.nearby) ? nearby.run() : StaticSolution{};
 }
 
+/// A non-associated law, from a start that need not be near an equilibrium.
+StaticSolution solve_non_associated(const Model& model, const State& start, const ContactSet& contacts,
+                                    const ContactMemories& memories, const StaticOptions& options) {
+  StaticOptions associated = options;
+  associated.solve.law = FrictionLaw::associated;
+  associated.tolerance = std::max(options.tolerance, kOutcomeTolerance);
+  StaticSolution first = ComingToRest(model, start, contacts, memories, associated).run();
+  if (first.outcome == StaticOutcome::moving && first.proven) return under_any_law(std::move(first));
+  StaticSolution solution;
+  int iterations = first.iterations;
+  const bool stands = first.outcome == StaticOutcome::equilibrium;
+  if (stands && slips_nowhere(first, options.solve.law, reference_acceleration(model, start)))
+    solution = solve_from_associated(model, start, contacts, memories, options, first);
+  if (solution.outcome != StaticOutcome::equilibrium) {
+    iterations += solution.iterations;
+    solution = solve_from_start(model, start, contacts, memories, options, stands ? &first : nullptr);
+    // Where it found no equilibrium, none may exist, and then the structure moves under every law.
+    if (solution.outcome != StaticOutcome::equilibrium && first.outcome != StaticOutcome::moving &&
+        !options.solve.max_iterations) {
+      const VecX loads = applied_forces(model, start, start.time + options.time_advance);
+      if (!(stands && has_exact_forces(first, loads))) decide(model, start, loads, associated, &first);
+      if (first.outcome == StaticOutcome::moving) return under_any_law(std::move(first));
+    }
+    if (stands && !options.follow_from_start &&
+        shows_nothing(solution, least_motion(model, options, &first))) {
+      StaticSolution second = solve_from_associated(model, start, contacts, memories, options, first);
+      if (second.outcome == StaticOutcome::equilibrium) std::swap(solution, second);
+      iterations += second.iterations;
+    }
+  }
+  solution.iterations += iterations;
+  return solution;
+}
+
 /// From a start that need not be near an equilibrium.
 StaticSolution solve_from_afar(const Model& model, const State& start, const ContactSet& contacts,
                                const ContactMemories& memories, const StaticOptions& options) {
-  StaticSolution solution;
-  if (options.solve.law.is_associated() || options.control) {
-    solution = ComingToRest(model, start, contacts, memories, options).run();
-  } else {
-    StaticOptions associated = options;
-    associated.solve.law = FrictionLaw::associated;
-    associated.tolerance = std::max(options.tolerance, kOutcomeTolerance);
-    StaticSolution first = ComingToRest(model, start, contacts, memories, associated).run();
-    if (first.outcome == StaticOutcome::moving && first.proven) return under_any_law(std::move(first));
-    int iterations = first.iterations;
-    const bool stands = first.outcome == StaticOutcome::equilibrium;
-    const auto from_associated = [&] {
-      ComingToRest again(model, start, contacts, memories, options, ComingToRest::Start::associated);
-      again.start_from(first);
-      return again.run();
-    };
-    if (stands && slips_nowhere(first, options.solve.law, reference_acceleration(model, start)))
-      solution = from_associated();
-    if (solution.outcome != StaticOutcome::equilibrium) {
-      iterations += solution.iterations;
-      solution = solve_from_start(model, start, contacts, memories, options);
-      // Where it found no equilibrium, none may exist, and then the structure moves under every law.
-      if (solution.outcome != StaticOutcome::equilibrium && first.outcome != StaticOutcome::moving &&
-          !options.solve.max_iterations) {
-        const VecX loads = applied_forces(model, start, start.time + options.time_advance);
-        if (!(stands && has_exact_forces(first, loads))) decide(model, start, loads, associated, &first);
-        if (first.outcome == StaticOutcome::moving) return under_any_law(std::move(first));
-      }
-      if (stands && !options.follow_from_start && shows_nothing(model, solution, first)) {
-        StaticSolution second = from_associated();
-        if (second.outcome == StaticOutcome::equilibrium) std::swap(solution, second);
-        iterations += second.iterations;
-      }
-    }
-    first = {};
-    solution.iterations += iterations;
-  }
+  StaticSolution solution = options.solve.law.is_associated() || options.control
+                                ? ComingToRest(model, start, contacts, memories, options).run()
+                                : solve_non_associated(model, start, contacts, memories, options);
   certify(model, start, contacts, options, &solution);
   return solution;
 }
