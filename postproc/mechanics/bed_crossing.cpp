@@ -38,7 +38,7 @@ bool crosses(const ThrustInput& in, const JointWrench& joint, int block, int row
   const Block &upper = in.assembly->blocks[block], &lower = in.assembly->blocks[other];
   const auto [first, end] = in.assembly->stack_of(upper.ring);
   if (!lower.fixed && lower.ring >= first && lower.ring < end)
-    return ring_at(in, other, row) < bed && ring_at(in, block, row) >= bed;
+    return lower.ring < bed && ring_at(in, other, row) < bed && ring_at(in, block, row) >= bed;
   if (!lower.fixed)
     if (const auto others = beds_of_stack(in, section, lower.ring); !others.empty()) {
       const auto own = beds_of_stack(in, section, upper.ring);
