@@ -63,6 +63,13 @@ double least_value(const ConicProblem& problem, const ConicSolution& x, double l
          times * power.cwiseAbs().dot(x.multipliers.cwiseAbs());
 }
 
+/// N: of a block.
+double largest_force_of(const VecX& load) {
+  double largest = 0.0;
+  for (Eigen::Index k = 0; k < load.size(); k += 6) largest = std::max(largest, load.segment<3>(k).norm());
+  return largest;
+}
+
 double largest_normal_force(const VecX& gamma) {
   return gamma(Eigen::seq(0, Eigen::last, 3)).cwiseAbs().maxCoeff();
 }
@@ -115,7 +122,11 @@ ConicBounds conic_bounds(const ConicProblem& problem, const ConicSolution& x) {
     outside = std::max(outside, limit_excess(law, gamma));
   }
   if (largest_force > 0.0) bounds.cone_violation = outside / largest_force;
-  bounds.lower = least_value(problem, x, largest_force, kLargestForces);
+  // Forces that vanish where they could bear the loads must not bound those of other states.
+  double scale = std::max(largest_force, largest_force_of(problem.load));
+  for (Eigen::Index j = 0; j < problem.load_columns.cols(); ++j)
+    scale = std::max(scale, largest_force_of(problem.load_columns.col(j)) * std::abs(x.multipliers[j]));
+  bounds.lower = least_value(problem, x, scale, kLargestForces);
   bounds.upper = problem.cost.dot(x.gamma) + problem.multiplier_cost.dot(x.multipliers) + x.v.dot(imbalance) +
                  x.row_velocities.dot(missing_rows);
   return bounds;

@@ -9,8 +9,9 @@ struct ConicBounds {
   /// The least value is at most this: c . gamma + e . t plus the work v . (D gamma + P t + w) of the forces
   /// that equilibrium still lacks, and the product of q and what the further conditions lack.
   double upper = 0.0;
-  /// Over all states whose forces and multipliers are at most kLargestForces times those of the solution, the
-  /// value is at least this: the dual value less what the violations of its conditions could gain.
+  /// Over all states whose multipliers are at most kLargestForces times those of the solution, and whose forces
+  /// as many times the largest of its forces and loads, the value is at least this: the dual value less what
+  /// the violations of its conditions could gain.
   double lower = 0.0;
   double imbalance = 0.0;       ///< largest |D gamma + P t + w| of a block over the largest load of a block
   double cone_violation = 0.0;  ///< largest excess of a force over its limits, over the largest gamma_n

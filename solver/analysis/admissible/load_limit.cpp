@@ -147,6 +147,27 @@ std::optional<double> halve(const SceneAt& scene_at, double* stands, double* mov
   return middle;
 }
 
+/// Whether bounds lie within the bracket of a search, to the width required or, at zero, to rounding.
+bool is_within(double stands, double moves, double relative_width, const DirectLimit& bounds) {
+  const auto [low, high] = std::minmax(stands, moves);
+  const auto slack = [&](double end) {
+    return std::max(relative_width * std::abs(end), kZeroLimit * bounds.span);
+  };
+  const auto [least, most] = std::minmax(bounds.admissible, bounds.moving);
+  return least >= low - slack(low) && most <= high + slack(high);
+}
+
+/// A bracket that is narrow enough is the limit.
+void take_bracket(const SceneAt& scene_at, double stands, double moves, double relative_width,
+                  DirectLimit* limit) {
+  limit->admissible = stands;
+  limit->moving = moves;
+  limit->found = limit->relative_width() <= relative_width;
+  if (!limit->found) return;
+  limit->gamma = solve_conic(scene_at(stands).problem).gamma;
+  limit->mechanism = solve_conic(scene_at(moves).problem).v;
+}
+
 /// Adds the scenes at the two bounds, and whether the mechanism proves the motion.
 void complete(const SceneAt& scene_at, double towards, DirectLimit* limit) {
   // At the bound itself the loads do no work on the mechanism.
@@ -185,6 +206,8 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
   if (!*at_low && !*at_high) return moves_at_both_ends(scene_at, low, high, in_unit, std::move(limit));
   const double towards = *at_low ? 1.0 : -1.0;
   double stands = *at_low ? low : high, moves = *at_low ? high : low;
+  limit.span = high - low;
+  const double enough = 0.1 * relative_width;
   double x = stands;
   for (int k = 0; k < kMaxIterations && !limit.found; ++k) {
     const ConicProblem problem = largest_multiplier(scene_at, x, towards, &limit.at_admissible);
@@ -192,32 +215,39 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     ++limit.trials;
     limit.iterations += solution.iterations;
     const double step = solution.multipliers[0];
-    const ConicBounds bounds =
-        multiplier_bounds(problem, 0.1 * relative_width * std::abs(x + step), &solution);
-    if (solution.outcome == ConicOutcome::infeasible || solution.outcome == ConicOutcome::unbounded ||
-        !std::isfinite(bounds.upper) || !std::isfinite(bounds.lower)) {
-      // Loads that are not linear may have a limit where they are no longer like those here.
+    const ConicBounds bounds = multiplier_bounds(problem, enough * std::abs(x + step), &solution);
+    limit.admissible = x - towards * bounds.upper;
+    limit.moving = x - towards * bounds.lower;
+    // Done where the step is negligible, or exact because the loads are linear.
+    const VecX missed = scene_at(x + step).problem.load - (problem.load + step * problem.load_columns);
+    const bool exact = missed.norm() <= 1e-12 * problem.load.norm();
+    const double next = std::clamp(x + step, std::min(stands, moves), std::max(stands, moves));
+    const bool done = exact || std::abs(step) <= enough * std::abs(next);
+    // The loads that the state lacks count as what the mechanism makes of them, which may be anything.
+    const double lacking = std::abs(limit.admissible - (x + step));
+    const double size = limit.is_zero() ? limit.span : std::abs(x + step);
+    const bool usable = solution.outcome != ConicOutcome::infeasible &&
+                        solution.outcome != ConicOutcome::unbounded && std::isfinite(bounds.lower) &&
+                        lacking <= enough * size;
+    if (!usable || (done && !is_within(stands, moves, relative_width, limit))) {
+      // Loads that are not linear may have a limit where they are no longer like those here. And where
+      // rounding alone keeps forces from balance, a solve ends at any value.
       const std::optional<double> middle = halve(scene_at, &stands, &moves, &limit, report);
       if (!middle)
         return not_found(std::move(limit), fmt::format("the linearised problem at {:.8g} is {}", in_unit(x),
                                                        to_string(solution.outcome)));
       x = *middle;
+      take_bracket(scene_at, stands, moves, relative_width, &limit);
       continue;
     }
-    limit.admissible = x - towards * bounds.upper;
-    limit.moving = x - towards * bounds.lower;
     limit.gamma = solution.gamma;
     limit.mechanism = solution.v;
     report({limit.admissible, true, {}, solution.iterations});
-    // Done where the step is negligible, or exact because the loads are linear.
-    const VecX missed = scene_at(x + step).problem.load - (problem.load + step * problem.load_columns);
-    const bool exact = missed.norm() <= 1e-12 * problem.load.norm();
-    x = std::clamp(x + step, std::min(stands, moves), std::max(stands, moves));
-    limit.found = exact || std::abs(step) <= 0.1 * relative_width * std::abs(x);
+    x = next;
+    limit.found = done;
   }
   if (!limit.found)
     return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
-  limit.span = high - low;
   limit.message = std::move(other);
   complete(scene_at, towards, &limit);
   return limit;

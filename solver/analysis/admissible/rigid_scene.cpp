@@ -43,6 +43,28 @@ void keep_corners(ContactSet* contacts) {
     if (is_reduced(point.patch)) point.area = faces[point.patch].area / faces[point.patch].corners;
 }
 
+/// Sets the components of axes and lever arms to zero that are rounding alone. Otherwise a tie through a
+/// centroid would have to balance a moment of 1e-17 of its force, by which a rotation at 1e13 times the speed
+/// of the tie would prove that it carries nothing. Friction resists such motions.
+void remove_rounding(const std::vector<Pose>& poses, const Model& model, ContactProblem* problem) {
+  constexpr double kRounding = 1e-15;  // a few units in the last place of the coordinates
+  const auto clean = [&](int block, Lever* lever) {
+    if (block == ContactProblem::kFixed) return;
+    const double size =
+        lever->arm.cwiseAbs().maxCoeff() + poses[model.free_blocks[block]].p_WB.cwiseAbs().maxCoeff();
+    const auto round = [](Vec3 x, double small) {
+      return (x.cwiseAbs().array() > small).select(x, Vec3::Zero()).eval();
+    };
+    lever->arm = round(lever->arm, kRounding * size);
+    lever->frame.col(0) = round(lever->frame.col(0), kRounding);
+  };
+  for (int i = 0; i < problem->num_contacts(); ++i) {
+    if (problem->mu[i] > 0.0) continue;
+    clean(problem->block_a[i], &problem->D_a[i]);
+    clean(problem->block_b[i], &problem->D_b[i]);
+  }
+}
+
 /// The key that gives some joints no friction.
 std::string key_without_friction(const Joints& joints) {
   if (joints.friction == 0.0) return "joints.friction";
@@ -87,6 +109,7 @@ RigidScene rigid_scene(const Case& scene, std::shared_ptr<const Assembly> assemb
   ConicProblem& problem = rigid.problem;
   problem.contacts =
       build_step_problem(rigid.model, rigid.start, rigid.contacts, rigid.memories, step).problem;
+  remove_rounding(rigid.start.poses, rigid.model, &problem.contacts);
   require_friction_with_cohesion(problem.contacts, scene);
   problem.load = applied_forces(rigid.model, rigid.start, rigid.start.time);
   problem.cost = VecX::Zero(3 * problem.contacts.num_contacts());

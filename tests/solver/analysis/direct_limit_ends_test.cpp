@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/case/limit_parameter.hpp"
+#include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/analysis.hpp"
 #include "tests/solver/analysis/limit_scenes.hpp"
 
@@ -138,6 +140,46 @@ TEST(DirectLimitEnds, APeakStressLeavesOutEdges) {
   scene.joints.compliance.per = Compliance::Per::area;
   expect_critical(scene, testing::make_boxes({bed, edge, beam}), 0.5 * 1.5 * kWeight);
   EXPECT_THROW(run(scene, testing::make_boxes({edge, {.center = {1, 0, 0.5}}})), InputError) << "no area";
+}
+
+/// A cube of weight W that hangs from a tie through its centroid, x = y = `missed`, which yields at 1.5 W.
+Case hung_cube(double missed) {
+  Case scene = limit_case(Parameter::load, 0.0, 10.0, 0.5);
+  PairTie tie;
+  tie.block_a = 0;
+  tie.block_b = 1;
+  tie.point_a = Vec3(missed, missed, 5.0);
+  tie.point_b = Vec3(missed, missed, 1.0);
+  tie.yield_force = 1.5 * kWeight;
+  scene.ties.pairs = {tie};
+  BlockForce load;
+  load.block.number = 1;
+  load.force = {0.0, 0.0, -0.5 * kWeight};
+  scene.loads.forces = {load};
+  return scene;
+}
+Assembly cube_below_a_ceiling() {
+  return testing::make_boxes({{.center = {0, 0, 5.5}, .size = {6, 2, 1}, .fixed = true},
+                              {.center = {0, 0, 0.5}, .size = {1, 1, 1}}});
+}
+constexpr double kRounding = 5e-17;  // m
+
+TEST(DirectLimitEnds, ATieThatMissesACentroidByRoundingBearsTheBlock) {
+  expect_critical(hung_cube(kRounding), cube_below_a_ceiling(), 1.0);
+}
+
+// With a moment that nothing balances the cube has no state but that without forces, at -2. At the ends of the
+// bracket the solver does not notice it.
+TEST(DirectLimitEnds, NoLimitLiesOutsideItsBracket) {
+  const auto assembly = std::make_shared<const Assembly>(cube_below_a_ceiling());
+  const auto scene_at = [&](double value) {
+    RigidScene rigid = rigid_scene(case_at(hung_cube(0.0), value), assembly);
+    rigid.problem.contacts.D_b[0].arm.head<2>().setConstant(kRounding);
+    return rigid;
+  };
+  const DirectLimit limit = limit_of_loads(scene_at, 0.0, 10.0, 1e-5, [](const DirectTrial&) {});
+  ASSERT_TRUE(limit.found) << limit.message;
+  EXPECT_NEAR(limit.middle(), 1.0, 0.02);  // of bisection, whose solves notice it at some values
 }
 
 }  // namespace

@@ -195,6 +195,22 @@ TEST(Conic, StatesUpToWhichForcesAMotionIsDriven) {
   EXPECT_EQ(positive_up_to(problem, sinking), 0.0) << "the weight resists";
 }
 
+// A cube of weight W on four points that bear 1.5 W together, and W t on it: t is at most 0.5. Without forces
+// it is in equilibrium at t = -1, which must not bound the forces of other states.
+TEST(Conic, VanishingForcesBoundNoOthers) {
+  ConicProblem problem = conic(scenes::stack({1000.0}, 0.01, {.mu = 0.5}));
+  maximise_load(&problem, problem.load);
+  const double weight = -problem.load[2];
+  problem.contacts.strength.assign(4, ContactStrength{.compression = 1.5 * weight / 4});
+  ConicSolution lifted;
+  lifted.gamma = VecX::Zero(12);
+  lifted.v = VecX::Zero(6);
+  lifted.v[2] = -1.0 / weight;
+  lifted.row_velocities = VecX(0);
+  lifted.multipliers = VecX::Constant(1, -1.0);
+  EXPECT_NEAR(conic_bounds(problem, lifted).lower, -0.5, kAgrees);
+}
+
 // A block between two walls can jam: no motion opens both joints.
 TEST(Conic, NoMotionOpensAJammedBlock) {
   scenes::Scene scene(0.01, {0, 0, -scenes::kGravity});
