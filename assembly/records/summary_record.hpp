@@ -61,7 +61,8 @@ void fields(Visitor&& visit, Is<Robustness> auto& r) {
 template <class Visitor>
 void fields(Visitor&& visit, Is<RangeEnd> auto& e) {
   visit("outcome", "",
-        "`bounded`, `unbounded` (by a self-stress without load), `undefined` (a ratio to nothing), "
+        "`bounded`, `unbounded` (by a self-stress without load, or a ratio's denominator of zero), "
+        "`undefined` (a ratio to nothing), "
         "`unconverged`",
         e.outcome);
   visit("value", "", "attained by the state found", e.value);

@@ -1,5 +1,8 @@
 #include "solver/analysis/admissible/force_functional.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "assembly/model/block_names.hpp"
 #include "solver/dynamics/time_step.hpp"
 
@@ -12,6 +15,13 @@ double ForceFunctional::operator()(const JointForces& forces) const {
   return value;
 }
 
+double ForceFunctional::size(const JointForces& forces) const {
+  double sum = std::abs(constant);
+  for (const auto& [i, coefficient] : contacts) sum += std::abs(coefficient.dot(forces.contacts[i]));
+  for (size_t i = 0; i < ties.size(); ++i) sum += std::abs(ties[i] * forces.ties[i]);
+  return sum;
+}
+
 VecX ForceFunctional::coefficients(const ContactSet& set) const {
   const Eigen::Index nc = std::ssize(set.points);
   VecX c = VecX::Zero(3 * (nc + static_cast<Eigen::Index>(ties.size())));
@@ -22,7 +32,11 @@ VecX ForceFunctional::coefficients(const ContactSet& set) const {
 }
 
 double RangeObjective::operator()(const JointForces& forces) const {
-  return over ? value(forces) / (*over)(forces) : value(forces);
+  if (!over) return value(forces);
+  constexpr double kNothing = 1e-9;  // of forces that cancel: the accuracy of a solve
+  const double denominator = (*over)(forces);
+  return std::abs(denominator) > kNothing * over->size(forces) ? value(forces) / denominator
+                                                               : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string ForceScene::label(int block) const {

@@ -18,6 +18,7 @@ struct ForceFunctional {
   double constant = 0.0;
 
   double operator()(const JointForces& forces) const;
+  double size(const JointForces& forces) const;  ///< the sum of the sizes of its terms
   void add(int contact, const Vec3& coefficient) {
     contacts.try_emplace(contact, Vec3::Zero()).first->second += coefficient;
   }
@@ -35,7 +36,7 @@ struct RangeObjective {
   /// states that repeat.
   bool mean_of_images = false;
 
-  double operator()(const JointForces& forces) const;
+  double operator()(const JointForces& forces) const;  ///< NaN for a ratio to nothing
 };
 
 /// The forces of a model from which quantities are made, as built.

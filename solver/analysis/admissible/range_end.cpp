@@ -29,6 +29,17 @@ ConicObjective objective_in(const RigidScene& scene, const RangeObjective& objec
   return {&sector->problem(), *value, over, true};
 }
 
+/// True for dry joints of which no forces make c . gamma negative.
+bool is_in_dual_cone(const ConicProblem& problem, const VecX& c) {
+  constexpr double kRounding = 1e-12;  // of the axes of a contact, relative
+  if (problem.has_strength()) return false;
+  for (int i = 0; i < problem.contacts.num_contacts(); ++i) {
+    const Vec3 c_i = c.segment<3>(3 * i);
+    if (c_i[0] < problem.contacts.mu[i] * c_i.tail<2>().norm() - kRounding * c_i.norm()) return false;
+  }
+  return true;
+}
+
 /// The conic problem whose least value is `towards` times the end.
 ConicProblem problem_of(const ConicObjective& objective, double towards) {
   ConicProblem problem = *objective.problem;
@@ -84,39 +95,89 @@ RangeEnd end_of(const ConicBounds& bounds, bool bounded, double towards, double 
   return end;
 }
 
-}  // namespace
+/// The signs of the denominator of a ratio in all admissible states. Joints that only press leave a normal force
+/// none but 1; others have the signs of its own ends.
+std::vector<double> signs_of(const ConicObjective& ratio, const RigidScene& scene, int* iterations) {
+  constexpr double kNothing = 1e-9;  // of one block's weight; ConicOptions::tolerance
+  if (is_in_dual_cone(*ratio.problem, *ratio.over)) return {1.0};
+  std::vector<double> signs;
+  for (const double sign : {1.0, -1.0}) {
+    ConicProblem problem = *ratio.problem;
+    problem.cost = -sign * *ratio.over;
+    const ConicSolution solution = solve_conic(problem);
+    *iterations += solution.iterations;
+    if (solution.outcome == ConicOutcome::unbounded || -solution.primal > kNothing * scene.model.block_weight)
+      signs.push_back(sign);
+  }
+  return signs;
+}
 
-RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
-                        const SectorProblem* sector) {
+/// The end over the states whose denominator, if there is one, is positive.
+RangeSolution end_of(const RigidScene& scene, const ConicObjective& linear, double constant, double towards,
+                     const SectorProblem* sector) {
   RangeSolution found;
-  const ConicObjective linear = objective_in(scene, objective, sector);
   found.of_sector = linear.of_sector;
   ConicProblem problem = problem_of(linear, towards);
   ConicSolution solution = solve_conic(problem);
   found.iterations = solution.iterations;
   // The multiplier of the loads is free in the conic problem. Where it turns out negative, loads only hinder.
-  if (objective.over && solution.multipliers[0] < 0.0) {
+  if (linear.over && solution.multipliers[0] < 0.0) {
     problem = without_loads(problem);
     solution = solve_conic(problem);
     found.iterations += solution.iterations;
   }
   bool bounded = solution.outcome == ConicOutcome::optimal;
-  found.admissible = bounded && !objective.over;
+  found.admissible = bounded && !linear.over;
   if (bounded || solution.outcome == ConicOutcome::stalled) {
     const ConicBounds bounds = conic_bounds(problem, solution);
     bounded = bounded || are_close(bounds);  // rounding may have kept it from its tolerance
-    found.end = end_of(bounds, bounded, towards, objective.value.constant);
+    found.end = end_of(bounds, bounded, towards, constant);
   }
   found.v = std::move(solution.v);
   found.gamma = linear.of_sector ? sector->whole_forces(solution.gamma) : std::move(solution.gamma);
-  if (solution.outcome == ConicOutcome::infeasible && objective.over) {
+  if (solution.outcome == ConicOutcome::infeasible && linear.over) {
     found.end.outcome = RangeOutcome::undefined;
     found.gamma.resize(0);  // it shows no state
   } else if (solution.outcome == ConicOutcome::unbounded) {
     found.end.outcome = RangeOutcome::unbounded;
     found.gamma *= scene.model.block_weight / largest_normal_force(found.gamma);
-  } else if (objective.over && solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0) {
+  } else if (linear.over && solution.multipliers.size() > 0 && solution.multipliers[0] > 0.0) {
     found.gamma /= solution.multipliers[0];
+  }
+  return found;
+}
+
+/// The end over two sets of states together: the one that lies farther out, or that is less certain.
+RangeSolution join(RangeSolution one, RangeSolution other, double towards) {
+  constexpr RangeOutcome kFarthest[] = {RangeOutcome::unbounded, RangeOutcome::unconverged,
+                                        RangeOutcome::bounded, RangeOutcome::undefined};
+  const auto rank = [&](const RangeSolution& x) { return std::ranges::find(kFarthest, x.end.outcome); };
+  const int iterations = one.iterations + other.iterations;
+  const bool alike = one.end.outcome == other.end.outcome;
+  if (rank(other) < rank(one) ||
+      (alike && one.end.value && other.end.value && towards * *other.end.value < towards * *one.end.value))
+    std::swap(one, other);
+  if (one.end.bound && other.end.bound)
+    one.end.bound = towards * std::min(towards * *one.end.bound, towards * *other.end.bound);
+  one.iterations = iterations;
+  return one;
+}
+
+}  // namespace
+
+RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
+                        const SectorProblem* sector) {
+  const ConicObjective linear = objective_in(scene, objective, sector);
+  const double constant = objective.value.constant;
+  if (!linear.over) return end_of(scene, linear, constant, towards, sector);
+  RangeSolution found;
+  found.end.outcome = RangeOutcome::undefined;
+  found.of_sector = linear.of_sector;
+  for (const double sign : signs_of(linear, scene, &found.iterations)) {
+    ConicObjective positive = linear;
+    positive.value *= sign;
+    *positive.over *= sign;
+    found = join(std::move(found), end_of(scene, positive, constant, towards, sector), towards);
   }
   return found;
 }
@@ -139,17 +200,9 @@ std::optional<RangeSolution> range_end_of(const RigidScene& scene, const RangeOb
 }
 
 SparseX coefficients_in_dual_cone(const RigidScene& scene, const RangeObjective& objective) {
-  constexpr double kRounding = 1e-12;  // of the axes of a contact, relative
-  const ContactProblem& p = scene.problem.contacts;
-  if (objective.over || scene.problem.has_strength()) return {};
+  if (objective.over) return {};
   const VecX c = objective.value.coefficients(scene.contacts);
-  SparseX sparse = c.sparseView();
-  for (SparseX::InnerIterator entry(sparse); entry; ++entry) {
-    const Eigen::Index i = entry.index() / 3;
-    const Vec3 c_i = c.segment<3>(3 * i);
-    if (c_i[0] < p.mu[i] * c_i.tail<2>().norm() - kRounding * c_i.norm()) return {};
-  }
-  return sparse;
+  return is_in_dual_cone(scene.problem, c) ? SparseX(c.sparseView()) : SparseX();
 }
 
 double relative_gap(const ForceRange& range, double small) {

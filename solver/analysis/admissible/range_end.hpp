@@ -21,12 +21,12 @@ struct RangeSolution {
 /// `towards`: 1 for the smallest value, -1 for the largest. The scene must have an admissible state. With
 /// `sector`, if the objective repeats around the axis, one sector is solved and its forces are repeated.
 ///
-/// A ratio n(gamma) / d(gamma), d >= 0, is made linear as Charnes and Cooper (1962), "Programming with linear
+/// A ratio n(gamma) / d(gamma), d > 0, is made linear as Charnes and Cooper (1962), "Programming with linear
 /// fractional functionals": with gamma' = t gamma and t >= 0,
 ///
 ///     minimise n(gamma')   subject to   D gamma' + t w = 0,   d(gamma') = 1
 ///
-/// The strength of joints is multiplied by t as well.
+/// The strength of joints is multiplied by t as well. Where d may be negative, so is n / d = -n / -d.
 RangeSolution range_end(const RigidScene& scene, const RangeObjective& objective, double towards,
                         const SectorProblem* sector = nullptr);
 
