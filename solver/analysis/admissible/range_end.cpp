@@ -95,8 +95,8 @@ RangeEnd end_of(const ConicBounds& bounds, bool bounded, double towards, double 
   return end;
 }
 
-/// The signs of the denominator of a ratio in all admissible states. Joints that only press leave a normal force
-/// none but 1; others have the signs of its own ends.
+/// The signs of the denominator of a ratio in all admissible states. Joints that only press leave a normal
+/// force none but 1; others have the signs of its own ends.
 std::vector<double> signs_of(const ConicObjective& ratio, const RigidScene& scene, int* iterations) {
   constexpr double kNothing = 1e-9;  // of one block's weight; ConicOptions::tolerance
   if (is_in_dual_cone(*ratio.problem, *ratio.over)) return {1.0};

@@ -64,13 +64,16 @@ void Construction::place_beside_neighbours(const std::vector<int>& blocks) {
     if (count[block] > 0) state_.displacement[block] /= count[block];
 }
 
-/// By their displacements at the time 0, which open, close and shear their joints.
+/// By their displacements at the time 0, which open, close and shear their joints and strain their ties, as in
+/// statics to the first order of turns: so free blocks follow them.
 void Construction::move_supports() {
   const std::vector<Pose> before = initial_poses(site_->assembly);
   std::vector<Pose> after = before;
   place_supports(site_->assembly, make_support_motions(site_->scene, site_->assembly), 0.0, &after);
+  const auto velocity = block_velocities(before, after, 1.0);
   const auto moved = [&](int block, const Vec3& point) -> Vec3 {
-    return after[block].p_WB + after[block].q_WB * (point - before[block].p_WB) - point;
+    const Vec6 v = velocity.col(block);
+    return v.head<3>() + v.tail<3>().cross(point - before[block].p_WB);
   };
   for (size_t i = 0; i < state_.joints.size(); ++i) {
     const Contact& c = site_->contacts.points[i];
@@ -79,12 +82,11 @@ void Construction::move_supports() {
     state_.joints[i].memory.elastic_slip_A += apart - apart.dot(c.normal) * c.normal;
   }
   const std::vector<Tie> ties = make_ties(site_->scene, site_->assembly);
-  const auto gap = [](const Tie& tie, const std::vector<Pose>& poses) {
-    return tie_geometry(tie, poses, Vec3::Zero()).gap;  // no stage has restraints
-  };
-  for (size_t k = 0; k < ties.size(); ++k)
-    state_.ties[k].loosening += gap(ties[k], after) - gap(ties[k], before);
-  const auto velocity = block_velocities(before, after, 1.0);
+  for (size_t k = 0; k < ties.size(); ++k) {
+    const TieGeometry built = tie_geometry(ties[k], before, Vec3::Zero());  // no stage has restraints
+    state_.ties[k].loosening +=
+        built.normal.dot(moved(ties[k].block_b, built.point_b) - moved(ties[k].block_a, built.point_a));
+  }
   for (size_t block = 0; block < before.size(); ++block) {
     state_.displacement[block] += velocity.col(static_cast<Eigen::Index>(block)).head<3>();
     state_.rotation[block] += velocity.col(static_cast<Eigen::Index>(block)).tail<3>();

@@ -145,6 +145,30 @@ TEST(Construction, SupportsMoveOnceTheStructureIsComplete) {
   }
 }
 
+// What stands on one support follows it as a body: a tie from there to a block keeps its force.
+TEST(Construction, ASupportThatMovesWithItsColumnStrainsNoTie) {
+  const auto force = [](const Vec3& shift, const Vec3& turn) {
+    Case scene = level_case(1e-9, true);
+    PairTie tie;
+    tie.block_a = 0;
+    tie.block_b = 3;
+    tie.point_a = Vec3(0.5, 0.5, 0.0);
+    tie.point_b = Vec3(0.2, 0.3, 2.5);
+    tie.stiffness = 2e5;
+    tie.prestress = 1e3;
+    scene.ties.pairs = {tie};
+    scene.supports.moves = {
+        SupportMove{.region = {.blocks = {0}}, .displacement = shift, .rotation_deg = turn, .time = {}}};
+    const Built built = build(scene, testing::stack_of_cubes(1.0, std::vector<double>(3, 1000.0)));
+    EXPECT_EQ(built.summary.status, Status::stable) << built.summary.message;
+    return built.frames.back().ties.force[0];
+  };
+  const double unmoved = force({0, 0, 0}, {0, 0, 0});
+  constexpr double kSolve = 0.1;  // N: the tolerance of the solve, of the weight of 29 kN
+  EXPECT_NEAR(force({0.3, 0.1, 0}, {0, 0, 0}), unmoved, kSolve);
+  EXPECT_NEAR(force({0, 0, 0}, {0, 0, 5}), unmoved, kSolve);
+}
+
 // A course on a frictionless slope between uprights, with heads that nothing presses, holds by the cohesion of
 // its bed, gamma h sin theta. A millionth less is enough for a verdict (1e-5), not for a state that is carried
 // on to 1e-10, which has the next higher value.
