@@ -91,6 +91,18 @@ void declare_pull_rule(Section& s, const Case& the_case) {
          "analysis.limit.direction", "must be horizontal, at right angles to loads.gravity");
 }
 
+/// A thickness limit scales the blocks. Anchors elsewhere than in the middle would stay where the shell as built
+/// has them, and in a thinner one hang in the air.
+void declare_thickness_rule(Section& s, const Case& the_case) {
+  if (the_case.analysis.type != AnalysisType::limit ||
+      the_case.analysis.limit.parameter != LimitSearch::Parameter::thickness)
+    return;
+  s.rule(std::ranges::all_of(the_case.geometry.chains, [](const Chain& chain) { return chain.place == 0.5; }),
+         "analysis.limit.parameter",
+         "thickness: requires chains and rods with place: 0.5, in the middle of the thickness, where their "
+         "anchors stay; or compare runs with other thicknesses of the member instead, by --set");
+}
+
 /// A path follows what changes with time.
 void declare_path_rule(Section& s, const Case& the_case) {
   if (the_case.analysis.type != AnalysisType::path || the_case.supports.base_motion) return;
@@ -130,6 +142,7 @@ void declare_case(Section& s, Case& the_case) {
   declare_heat_rules(s, the_case);
   declare_path_rule(s, the_case);
   declare_pull_rule(s, the_case);
+  declare_thickness_rule(s, the_case);
   s.section("output", the_case.output, "what is written during the analysis", declare_output);
   s.section("postproc", the_case.postproc, "meridians, sections and planes to evaluate", declare_postproc);
   declare_strength_rules(s, the_case);

@@ -145,7 +145,9 @@ void declare_failure_rules(Section& s, const Joints& joints) {
                           [](const auto& kind) { return kind.second->fracture_energy.has_value(); }) ||
       std::ranges::any_of(joints.rings,
                           [](const RingJoints& group) { return group.law.fracture_energy.has_value(); });
-  s.rule(softens || !energies, "fracture_energy", "requires joints.failure: softening");
+  // A case that says `plastic` may keep them, as one that is assessed does.
+  const bool says_plastic = joints.failure == JointFailure::plastic && s.gives("failure");
+  s.rule(softens || says_plastic || !energies, "fracture_energy", "requires joints.failure: softening");
   s.rule(!softens || joints.fracture_energy, "failure",
          "softening requires fracture_energy: {tension: N/m, shear: N/m}");
   s.rule(joints.failure == JointFailure::plastic || joints.have_strength(), "failure",
