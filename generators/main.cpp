@@ -9,6 +9,7 @@
 #include <memory>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "assembly/case/key_places.hpp"
 #include "assembly/export/export.hpp"
@@ -108,6 +109,8 @@ PreparedRun prepare(int argc, char** argv) {
   return [line, scene, files, blocks = last] {
     const Assembly assembly = with_places_of_keys(
         *scene, [&] { return generate_again(*scene, std::move(blocks->assembly), blocks->report); });
+    if (!line->quiet() && !scene->left_out.empty())
+      fmt::print("inherited, but not keys of the new type: {}\n", fmt::join(scene->left_out, ", "));
     if (!line->quiet()) fmt::print("{}", to_text(blocks->report));
     std::vector<std::string> lost;
     if (!files.exported.empty()) lost = lost_by_export(files.exported, assembly);

@@ -85,6 +85,7 @@ struct Case {
 
   std::string file;                      ///< path as given on the command line
   std::shared_ptr<const CaseNode> keys;  ///< as given, with their places in the files
+  std::vector<std::string> left_out;     ///< inherited keys that the new `type` of their map does not have
   std::vector<std::string> inputs;       ///< files read: the case, those it extends, and those it names
   std::string
       hash;  ///< of all sections except title, postproc, sweep and ensemble, which do not affect a run

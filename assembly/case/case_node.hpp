@@ -19,6 +19,7 @@ struct CaseNode {
   bool quoted = false;          ///< scalar in quotes: never a number
   std::vector<CaseNode> items;  ///< list
   std::vector<Entry> entries;   ///< map, in the order of the file
+  bool of_other_type = false;   ///< inherited by a map whose `type` then changed, which may not have this key
   FileLocation where;
 
   const CaseNode* find(std::string_view key) const;  ///< nullptr if the map has no such key

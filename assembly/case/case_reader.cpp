@@ -1,5 +1,6 @@
 #include "assembly/case/case_reader.hpp"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <set>
@@ -45,18 +46,36 @@ std::string title_with(const std::string& title, const std::vector<std::string>&
   return changes.empty() ? title : fmt::format("{} (with {})", title, fmt::join(changes, ", "));
 }
 
+/// Removes the keys that a map of another `type` left and that are not in force, and lists their paths.
+void leave_out_keys_of_other_types(const CaseNode& effective, const std::string& path, CaseNode* node,
+                                   std::vector<std::string>* left_out) {
+  for (size_t i = 0; i < std::min(node->items.size(), effective.items.size()); ++i)
+    leave_out_keys_of_other_types(effective.items[i], fmt::format("{}[{}]", path, i), &node->items[i],
+                                  left_out);
+  std::erase_if(node->entries, [&](CaseNode::Entry& entry) {
+    const CaseNode* in_force = effective.find(entry.key);
+    const std::string key = path.empty() ? entry.key : path + "." + entry.key;
+    if (in_force) leave_out_keys_of_other_types(*in_force, key, &entry.value, left_out);
+    const bool leave_out = !in_force && entry.value.of_other_type;
+    if (leave_out) left_out->push_back(key);
+    return leave_out;
+  });
+}
+
 /// Reads a case without checking the members of its sweep.
 Case read_one_case(const std::string& path, const std::vector<std::string>& set_options) {
   Case the_case;
   std::vector<std::string> not_inherited;
-  the_case.keys =
+  const auto keys =
       std::make_shared<CaseNode>(load_case_tree(path, set_options, &the_case.inputs, &not_inherited));
-  Section root(the_case.keys.get(), "", the_case.keys->where, path);
+  the_case.keys = keys;
+  Section root(keys.get(), "", keys->where, path);
   root.collect_files(&the_case.inputs);
   std::vector<PlausibleRange> expected;
   root.collect_expected(&expected);
   declare_case(root, the_case);
   root.finish();
+  leave_out_keys_of_other_types(root.effective(), "", keys.get(), &the_case.left_out);
 
   the_case.title = title_with(the_case.title, set_options);
   the_case.file = path;

@@ -46,8 +46,9 @@ CaseNode* find_item(CaseNode* map, const CaseNode::Entry& key) {
   return &items[static_cast<size_t>(index)];
 }
 
-/// Merges `over` into `base`: maps key by key, other nodes replace. In a map whose keys depend on
-/// its type, a different type replaces the whole map. The key `name[i]` changes item i of a list.
+/// Merges `over` into `base`: maps key by key, other nodes replace. In a map whose keys depend on its type,
+/// those under a different type stay, marked: only the reader knows which of them the new type has. The key
+/// `name[i]` changes item i of a list.
 void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "") {
   if (base->kind != CaseNode::Kind::map || over.kind != CaseNode::Kind::map) {
     *base = over;
@@ -55,7 +56,9 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
   }
   const CaseNode* old_type = base->find("type");
   const CaseNode* new_type = over.find("type");
-  if (type_owns_keys(path) && old_type && new_type && old_type->text != new_type->text) base->entries.clear();
+  if (type_owns_keys(path) && old_type && new_type && old_type->text != new_type->text)
+    for (CaseNode::Entry& entry : base->entries) entry.value.of_other_type = true;
+  base->of_other_type = false;
   for (const CaseNode::Entry& entry : over.entries) {
     const std::string entry_path = path.empty() ? entry.key : path + "." + entry.key;
     if (CaseNode* item = find_item(base, entry)) {

@@ -85,7 +85,7 @@ std::string Section::misspelling_of(const std::string& key) const {
   std::vector<std::string> given;
   if (node_)
     for (const CaseNode::Entry& entry : node_->entries)
-      if (!contains(known_, entry.key)) given.push_back(entry.key);
+      if (!contains(known_, entry.key) && !entry.value.of_other_type) given.push_back(entry.key);
   const std::string near = nearest_name(key, given);
   return near.empty() ? "" : fmt::format("; is {} a misspelling of {}?", shown(near), key);
 }
@@ -106,7 +106,7 @@ void Section::retired(const std::string& key, const std::string& instead) const 
 
 void Section::refuse(const std::string& key, const std::string& advice) const {
   const CaseNode* node = node_ ? node_->find(key) : nullptr;
-  if (!node) return;
+  if (!node || node->of_other_type) return;
   const std::string& file = node->where.file;
   const bool inherited = file != case_file_ && file.ends_with(".yaml");
   fail(key, *node,
@@ -191,7 +191,7 @@ void Section::close(const Section& child) {
 void Section::check_names() const {
   if (node_) {
     for (const auto& [key, where, value] : node_->entries) {
-      if (contains(known_, key)) continue;
+      if (contains(known_, key) || value.of_other_type) continue;
       const std::string near = nearest_name(key, known_);
       const std::string elsewhere = suggestion_for(*node_, key, path_of(key));
       const std::string meant = !elsewhere.empty() && (near.empty() || edit_distance(key, near) > 1)

@@ -279,12 +279,29 @@ TEST(ReadCase, NullRemovesAnInheritedKeyAndAMissingValueIsAnError) {
   EXPECT_THROW(read_case(base, {"joints.friction="}), InputError);
 }
 
-TEST(ReadCase, ADifferentTypeReplacesTheKeysOfTheOldType) {
+TEST(ReadCase, ADifferentTypeKeepsTheKeysThatItHasAndLeavesOutTheOthers) {
   const ScratchFolder scratch;
   const std::string path = scratch.write("dome.yaml", kDome);
   const Case c = read_case(path, {"geometry.surface.length=5", "geometry.surface.type=wall"});
   EXPECT_EQ(std::get<WallSurface>(c.geometry.surface).length, 5.0);
-  EXPECT_EQ(std::get<WallSurface>(c.geometry.surface).thickness, WallSurface{}.thickness);
+  EXPECT_EQ(std::get<WallSurface>(c.geometry.surface).thickness, 2.2);
+  EXPECT_EQ(c.left_out, std::vector<std::string>{"geometry.surface.span"});
+  EXPECT_EQ(c.keys->find("geometry")->find("surface")->find("span"), nullptr);
+  // Through a case that extends it, and of an item of a list; the same blocks as with all keys written.
+  scratch.write(
+      "layers.yaml",
+      "geometry:\n  surface: {type: wall}\n"
+      "  wythes: [{name: a, thickness: 1, bond: {type: running, rings: 8, slices_per_block: 4}}]\n");
+  const Case stack = read_case(scratch.write(
+      "stack.yaml", "extends: layers.yaml\ngeometry: {'wythes[0]': {bond: {type: stack, phase: 0.5}}}\n"));
+  EXPECT_EQ(std::get<StackBond>(*stack.geometry.wythes[0].bond).rings, 8);
+  EXPECT_EQ(std::get<StackBond>(*stack.geometry.wythes[0].bond).slices_per_block, 4);
+  const Case filled = read_case(
+      scratch.write("filled.yaml", "extends: stack.yaml\ngeometry: {'wythes[0]': {bond: {type: fill}}}\n"));
+  EXPECT_EQ(std::get<FillBond>(*filled.geometry.wythes[0].bond).rings, 8);
+  EXPECT_EQ(filled.left_out, std::vector<std::string>{"geometry.wythes[0].bond.phase"});
+  // Keys beside the new type are read strictly.
+  EXPECT_THROW(read_case(path, {"geometry.surface.type=wall", "geometry.surface.span=5"}), InputError);
   const Case dynamic = read_case(path, {"analysis={tolerance: 1e-6, type: dynamic}"});
   EXPECT_EQ(dynamic.analysis.tolerance, 1e-6);
 }
