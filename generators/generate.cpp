@@ -151,15 +151,25 @@ void refuse_floating(const Geometry& geometry, const Assembly& assembly, const M
                       : ""));
 }
 
+/// The middle between a member and its first copy or mirror image, as a place for an arch; "" without.
+std::string place_between(const Storey& member, const std::vector<Storey>& storeys) {
+  const auto is_copy = [&](const Storey& other) { return other.key == member.key && &other != &member; };
+  const auto copy = std::ranges::find_if(storeys, is_copy);
+  if (copy == storeys.end()) return {};
+  const Vec3 middle = 0.5 * (member.placement.translation() + copy->placement.translation());
+  return fmt::format(", here {{origin: [{:.6g}, {:.6g}, 0]}}", middle.x(), middle.y());
+}
+
 /// Refuses a member beside the one on which it stands: its other end, on a support, may hold it in the air.
 void refuse_misplaced(const std::vector<Storey>& storeys, const ModelReport& report) {
   for (size_t i = 1; i < storeys.size(); ++i)
     if (storeys[i].stands_on_previous && report.is_joined[i] == 0)
       throw InputError(fmt::format(
-          "{}.on = {}: nothing of {} touches {}, on whose axis it stands; an arch on two walls "
-          "requires the plane of their `mirror` through its middle, a half arch on one a `straight` vault "
-          "of its span and plan as its pier",
-          storeys[i].key, storeys[i - 1].name, storeys[i].name, storeys[i - 1].name));
+          "{}.on = {}: nothing of {} touches {}, on whose axis it stands; an arch on two walls, which are "
+          "copies, requires `at` in the middle between them{}, a half arch on one a `straight` vault of its "
+          "span and plan as its pier",
+          storeys[i].key, storeys[i - 1].name, storeys[i].name, storeys[i - 1].name,
+          place_between(storeys[i - 1], storeys)));
 }
 
 /// Refuses an arch on several copies of a member that has none under one of its feet.

@@ -22,7 +22,7 @@ void declare_top_load(Section& s, TopLoad& load) {
 
 void declare_sharing_blocks(Section& s, SharingBlocks& over) {
   s.integer("course", over.course, {.min = -1}, "ring of the blocks; -1: any");
-  s.text("member", over.member, "wythe, drum or group of bonders; empty: any");
+  s.text("member", over.member, "member with its copies, wythe or group of bonders; empty: any");
 }
 
 void declare_spread(Section& s, Spread& spread) {
@@ -75,7 +75,8 @@ void declare_face_load(Section& s, FaceLoad& load) {
   s.integer("from_ring", load.from_ring, {.min = 0}, "lowest ring");
   s.integer("to_ring", load.to_ring, {.min = 0}, "highest ring");
   s.rule(load.from_ring <= load.to_ring, "to_ring", "must be >= from_ring");
-  s.text("member", load.member, "only faces of this wythe or group of bonders; empty: of all blocks");
+  s.text("member", load.member,
+         "only faces of this member and its copies, wythe or group of bonders; empty: of all blocks");
   s.vector3("traction", load.traction, {.unit = "N/m2"}, "force per unit area, of constant direction");
   s.number("pressure", load.pressure, {.unit = "N/m2"},
            "pressure on the faces, in their as-built directions");

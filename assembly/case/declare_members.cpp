@@ -190,9 +190,14 @@ void declare_shape(Section& s, Member& member) {
       declare_place);
   check_place_beside(s, member);
   s.rule(!member.beside || member.on.empty(), "beside",
-         fmt::format("a member that stands on {} lies on its axis; move that one", member.on));
-  s.rule(member.on.empty() || !member.at || member.at->origin.z() == 0.0, "at",
-         fmt::format("the height of origin is fixed by on: {}: write 0", member.on));
+         fmt::format("a member that stands on {0} lies on its axis: leave out `beside`, and give {0} a place "
+                     "`at` which this one touches {1}",
+                     member.on, member.beside ? member.beside->member : ""));
+  s.rule(
+      member.on.empty() || !member.at || member.at->origin.z() == 0.0, "at",
+      fmt::format("the height of origin is fixed by on: {}: write 0, or, unless this is an arch or a groin "
+                  "vault, leave out `at`",
+                  member.on));
   s.optional_section("copies", member.copies,
                      "equal copies of the member, and of the members that stand on it: NAME 2, NAME 3, ...",
                      declare_copies);

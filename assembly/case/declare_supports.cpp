@@ -163,7 +163,8 @@ void declare_time_function(Section& s, TimeFunction& time) {
 
 void declare_region(Section& s, BlockRegion& region, const std::string& blocks) {
   s.blocks("blocks", region.blocks, "numbers or names of " + blocks);
-  s.text("member", region.member, "only blocks of this member, wythe or group of bonders; empty: any");
+  s.text("member", region.member,
+         "only blocks of this member and its copies, wythe or group of bonders; empty: any");
   s.optional_section("sector", region.sector, "only blocks whose centroids lie in this sector",
                      declare_sector);
   s.optional_section("profile", region.profile, "factor that varies with the azimuth of each block",

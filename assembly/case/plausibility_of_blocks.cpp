@@ -94,9 +94,10 @@ std::vector<std::string> moved_supports(const Case& scene) {
   return out;
 }
 
-/// Fill that hardly lies on anything. `weight`: of the free blocks, N.
+/// Fill that hardly lies on anything, or presses on nothing aside. `weight`: of the free blocks, N.
 std::vector<std::string> idle_fill(const Loads& loads, const Assembly& assembly, double weight) {
-  constexpr double kIdle = 1e-3;  // of the weight: less changes no answer that a user sees
+  constexpr double kIdle = 1e-3;      // of the weight: less changes no answer that a user sees
+  constexpr double kRounding = 1e-9;  // of normals of level faces
   std::vector<std::string> out;
   for (size_t i = 0; i < loads.faces.size(); ++i) {
     if (!loads.faces[i].fill || loads.gravity.norm() == 0.0) continue;
@@ -106,8 +107,19 @@ std::vector<std::string> idle_fill(const Loads& loads, const Assembly& assembly,
     fill.faces[0].traction.setZero();
     fill.faces[0].pressure = 0.0;
     const std::vector<PointForce> forces = applied_loads(fill, assembly);
-    double down = 0.0;
-    for (const PointForce& force : forces) down -= force.force.z();
+    double down = 0.0, aside = 0.0;
+    for (const PointForce& force : forces) {
+      down -= force.force.z();
+      aside += force.force.head<2>().norm();
+    }
+    const double horizontal = loads.faces[i].fill->horizontal;
+    if (horizontal > 0.0 && aside <= kRounding * down)
+      out.push_back(fmt::format(
+          "loads.faces[{}].fill.horizontal = {:g}: has no effect: the fill lies on level faces and beside "
+          "none "
+          "that rises from them; earth against a vertical back is a `pressure` on its courses, by from_ring "
+          "and to_ring",
+          i, horizontal));
     if (down >= kIdle * weight) continue;
     out.push_back(fmt::format(
         "loads.faces[{}].fill: up to z = {:g} m it weighs {:.3g} N, {:.1g} % of the blocks, on {} of their "

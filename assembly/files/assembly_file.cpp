@@ -107,6 +107,8 @@ void add_member_arrays(const Assembly& assembly, Mesh* mesh) {
   mesh->field_data.push_back(
       column<I>("block_member", assembly.blocks, [](const Block& b) { return b.member; }));
   mesh->field_data.push_back({"member_name", 1, assembly.members});
+  if (!assembly.member_originals.empty() && assembly.member_originals != assembly.members)
+    mesh->field_data.push_back({"member_original", 1, assembly.member_originals});
   mesh->point_data.push_back({"layer", 1, assembly.vertex_layers});
   mesh->point_data.push_back({"depth", 1, assembly.vertex_depths});
 }
@@ -114,6 +116,10 @@ void add_member_arrays(const Assembly& assembly, Mesh* mesh) {
 void read_members(const Mesh& mesh, Assembly* assembly) {
   if (!mesh.has(mesh.field_data, "member_name")) return;
   assembly->members = mesh.array<std::string>(mesh.field_data, "member_name", 1);
+  assembly->member_originals =
+      mesh.has(mesh.field_data, "member_original")
+          ? array_of<std::string>(mesh, mesh.field_data, "member_original", assembly->members.size())
+          : assembly->members;
   const size_t blocks = assembly->blocks.size(), parts = assembly->parts.size(),
                corners = assembly->vertices.size();
   const auto& member = array_of<std::int32_t>(mesh, mesh.field_data, "block_member", blocks);

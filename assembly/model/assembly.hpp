@@ -101,6 +101,8 @@ struct Assembly {
   std::vector<Sheet> sheets;  ///< by their courses; none for imported blocks
   /// Names of the wythes and, behind them, of the groups of bonders; empty for a shell of one wythe.
   std::vector<std::string> members;
+  /// Of each of them the name of that of which it is a copy or mirror image, else its own.
+  std::vector<std::string> member_originals;
   /// Of the corners of a shell with wythes (num_vertices): the layer on which they lie, and their share of
   /// the thickness of the shell, 0 on the intrados and 1 on the extrados. Wythe members[l] lies between
   /// layers l and l + 1. -1 and 0 for the corners of supports. Empty for a shell of one wythe.

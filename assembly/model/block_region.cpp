@@ -36,13 +36,21 @@ const Sheet* sheet_of_member(const Assembly& assembly, int member) {
   return nearest ? assembly.sheet_of(nearest->ring) : nullptr;
 }
 
-/// True if a fixed block bears this member, given by its name or by that of any of its wythes.
+/// True if a fixed block bears this member or a copy, given by its name or by that of any of its wythes.
 bool bears(const Assembly& assembly, const Block& support, const std::string& member) {
   if (is_of_member(assembly, support, member)) return true;
-  const Sheet* sheet = sheet_of_member(assembly, support.member);
-  const auto named = std::ranges::find(assembly.members, member);
-  if (!sheet || named == assembly.members.end()) return sheet && sheet->name == member;
-  return sheet == sheet_of_member(assembly, static_cast<int>(named - assembly.members.begin()));
+  const auto index_of = [&](const std::string& name) {
+    return static_cast<int>(std::ranges::find(assembly.members, name) - assembly.members.begin());
+  };
+  const int named = index_of(member);
+  const auto is_below = [&](int borne) {
+    const Sheet* sheet = sheet_of_member(assembly, borne);
+    if (!sheet || named == std::ssize(assembly.members)) return sheet && sheet->name == member;
+    return sheet == sheet_of_member(assembly, named);
+  };
+  const bool is_listed = support.member < std::ssize(assembly.member_originals);
+  return is_below(support.member) ||
+         (is_listed && is_below(index_of(assembly.member_originals[support.member])));
 }
 
 /// The sheet about whose axis a block lies and from which it moves outwards: of a support that of the nearest

@@ -80,8 +80,10 @@ void add_fill(const FaceLoad& load, const Assembly& assembly, const std::string&
   if (std::ranges::none_of(faces, [&](const LoadedFace& face) {
         return std::ranges::any_of(face.polygon, [&](const Vec3& p) { return fill.stress(p.z()) > 0.0; });
       }))
-    throw InputError(fmt::format("{}: the fill up to z = {:g} m lies on none of the faces of kind {}", key,
-                                 fill.level, to_string(load.faces)));
+    throw InputError(fmt::format(
+        "{}: the fill up to z = {:g} m lies on none of the faces of kind {}: they are steep, covered or "
+        "higher; earth against a vertical back is a `pressure` on its courses, by from_ring and to_ring",
+        key, fill.level, to_string(load.faces)));
   if (fill.horizontal > 0.0)
     std::ranges::move(
         beside_fill(fill, faces_of_kind(assembly, kOutside, load.from_ring, load.to_ring, load.member), faces,

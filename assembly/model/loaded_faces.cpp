@@ -56,8 +56,15 @@ std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, d
   return kept;
 }
 
-bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member) {
-  return member.empty() || (!assembly.members.empty() && assembly.members[block.member] == member);
+bool means_member(const std::string& name, const Assembly& assembly, int member) {
+  const auto is_at = [&](const std::vector<std::string>& names) {
+    return member < static_cast<int>(names.size()) && names[member] == name;
+  };
+  return is_at(assembly.members) || is_at(assembly.member_originals);
+}
+
+bool is_of_member(const Assembly& assembly, const Block& block, const std::string& name) {
+  return name.empty() || means_member(name, assembly, block.member);
 }
 
 std::vector<LoadedFace> faces_of_kind(const Assembly& assembly, std::span<const FaceKind> kinds,

@@ -27,7 +27,10 @@ bool looks_up(const LoadedFace& face);
 /// The part of a plane polygon with n.x <= offset; fewer than three points if there is none.
 std::vector<Vec3> below_plane(const std::vector<Vec3>& polygon, const Vec3& n, double offset);
 
-bool is_of_member(const Assembly& assembly, const Block& block, const std::string& member);
+/// True if `name` in a case means this member: its own name, or that of which it is a copy or mirror image.
+bool means_member(const std::string& name, const Assembly& assembly, int member);
+/// The same for the member of a block; "" means all.
+bool is_of_member(const Assembly& assembly, const Block& block, const std::string& name);
 
 /// Faces of some kinds on the free blocks of a member ("": all), for parts in a range of rings, without what
 /// other parts of the same block hide.

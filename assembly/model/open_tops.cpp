@@ -140,9 +140,7 @@ std::vector<LoadedFace> open_tops(const Assembly& assembly, int from_ring, int t
   std::vector<LoadedFace> tops;
   for (const LoadedFace& face : faces_of_kind(assembly, kTops, from_ring, to_ring, ""))
     if (looks_up(face)) cover.add_open(face, &tops, &stands_on);
-  const auto is_named = [&](int index) {
-    return !assembly.members.empty() && assembly.members[index] == member;
-  };
+  const auto is_named = [&](int index) { return means_member(member, assembly, index); };
   if (member.empty()) return tops;
   std::erase_if(tops, [&](const LoadedFace& top) {
     const int of_top = member_of(assembly, top.part);

@@ -200,7 +200,9 @@ void add_storey(const Storey& shell, std::span<const Storey> storeys, const CutO
   if (stands && surface.first_bed_held && !surface.first_row_held)
     add_base_support(surface, cuts, options.support_width, options.base_blocks, options.density, assembly);
   const int first_member = static_cast<int>(assembly->members.size());
-  assembly->members.insert(assembly->members.end(), shell.members.begin(), shell.members.end());
+  std::ranges::copy(shell.members, std::back_inserter(assembly->members));
+  std::ranges::copy(shell.originals.empty() ? shell.members : shell.originals,
+                    std::back_inserter(assembly->member_originals));
   points.make_shared(first_member, assembly);
   const size_t first_part = assembly->parts.size();
   for (int bond_block : grid.order) {

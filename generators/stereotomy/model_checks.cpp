@@ -136,8 +136,17 @@ std::string places_of_members(const Assembly& assembly, int a, int b) {
   };
   if (name(a) == name(b) && !assembly.blocks[a].fixed) return {};
   const Vec3& p = assembly.blocks[b].centroid;
-  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; move one member by `at`", name(a),
-                     name(b), p.x(), p.y(), p.z());
+  const Sheet* sheet = assembly.sheet_of(assembly.blocks[a].ring);
+  const int of_a = assembly.blocks[a].member, of_b = assembly.blocks[b].member;
+  const bool are_copies = of_a != of_b && !assembly.member_originals.empty() &&
+                          assembly.member_originals[of_a] == assembly.member_originals[of_b];
+  const std::string cure = !are_copies ? "move one member by `at`"
+                           : sheet && sheet->on_previous
+                               ? "each copy of a member bears a copy of what stands on it: stand that on one "
+                                 "without copies, and list the others as a member after it"
+                               : "move the copies apart";
+  return fmt::format(" ({} and {}) about ({:.4g}, {:.4g}, {:.4g}) m; {}", name(a), name(b), p.x(), p.y(),
+                     p.z(), cure);
 }
 
 /// Pairs of blocks that overlap by more than the bound, and by how much (m).

@@ -136,10 +136,11 @@ void stand_on(const std::string& key, const Member& bearer, const Member& member
   }
   const double foot = level_of(storey->surface, 0.0, on + "the first bed of " + storey->name);
   if (member.at && !storey->surface.last_bed_held)
-    throw InputError(
-        fmt::format("{}.at: a member that stands on {} lies on its axis; only arches and groin "
-                    "vaults have a place of their own, their feet on what ends at that level",
-                    key, lower.name));
+    throw InputError(fmt::format(
+        "{}.at: a member that stands on {} lies on its axis: leave out `at`; only groin vaults and "
+        "arches with two springings have a place of their own, their feet on what ends at that "
+        "level",
+        key, lower.name));
   if (member.at)
     storey->placement.translation().z() = lower.placement.translation().z() + top - foot;
   else
@@ -204,6 +205,7 @@ void copy_stack(const Member& member, size_t first, std::vector<Storey>* storeys
       Storey storey = (*storeys)[i];
       storey.name += fmt::format(" {}", copy);
       storey.beside.clear();  // the first one stands there
+      storey.originals = storey.members;
       for (std::string& label : storey.members) label += fmt::format(" {}", copy);
       storey.placement = motion * storey.placement;
       storey.surface.rings_below = storeys->back().surface.rings_below + storeys->back().num_rings();

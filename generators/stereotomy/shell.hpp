@@ -27,10 +27,11 @@ struct Storey {
   bool stands_on_previous = false;
   bool bears_another = false;
   std::vector<Cut> cuts = {};
-  std::string key = {};               ///< of the member, for messages
-  std::optional<Affine> affine = {};  ///< of a groin vault, after its webs are cut
-  std::string beside = {};            ///< member that it touches in the plane of the first of its limits
-  std::vector<Plane> limits = {};     ///< of its supports: n.x <= offset, in the coordinates of the surface
+  std::string key = {};                     ///< of the member, for messages
+  std::vector<std::string> originals = {};  ///< of a copy: `members` of that which it copies
+  std::optional<Affine> affine = {};        ///< of a groin vault, after its webs are cut
+  std::string beside = {};         ///< member that it touches in the plane of the first of its limits
+  std::vector<Plane> limits = {};  ///< of its supports: n.x <= offset, in the coordinates of the surface
 
   bool is_reflected() const { return placement.linear().determinant() < 0.0; }
   /// Courses of the assembly. Those of a web are counted from both springings up to the crown.

@@ -80,12 +80,16 @@ std::vector<ProfilePiece> outside_eye(std::vector<ProfilePiece> pieces, double e
     pieces[i] = piece_up_to(pieces[i], high);
     return pieces;
   }
-  throw InputError(fmt::format("geometry.surface.eye = {}: ", eye) +
-                   (widest > eye
-                        ? fmt::format("the profile ends at r = {:.10g} m, outside the eye; give that r, or "
-                                      "draw the profile up to the eye",
-                                      pieces.back().at(1.0).x())
-                        : fmt::format("must be below {:.6g} m, the largest r of the profile", widest)));
+  const double end = pieces.back().at(1.0).x();
+  std::string reason = fmt::format("must be below {:.6g} m, the largest r of the profile", widest);
+  if (widest <= end + rounding)
+    reason = fmt::format(
+        "the profile is nowhere wider than at its end, r = {:.10g} m; leave out `eye` and key_stone", end);
+  else if (widest > eye)
+    reason = fmt::format(
+        "the profile ends at r = {:.10g} m, outside the eye; give that r, or draw the profile up to the eye",
+        end);
+  throw InputError(fmt::format("geometry.surface.eye = {}: {}", eye, reason));
 }
 
 /// The part of a profile above the last place where `is_above` does not hold; empty if that is its end. A

@@ -164,12 +164,14 @@ SurfaceMap over_polygon(const Drawing& drawing, const SailSection& section, Surf
 }
 
 /// Throws where the intrados has reached the axis on the last bed; m, from the axis.
-void refuse_eye(double of_line, double of_intrados) {
+void refuse_eye(double of_line, double of_intrados, bool upright) {
   if (of_intrados >= 1e-9 * of_line) return;
   throw InputError(fmt::format(
-      "geometry.surface.eye: on the last bed the drawn line lies at r = {:.6g} m, the intrados at "
-      "r = {:.6g} m, beyond the axis; choose a larger eye",
-      of_line, of_intrados));
+      "geometry.surface.{}: on the last bed the drawn line lies at r = {:.6g} m, the intrados at r = {:.6g} "
+      "m, on the axis or beyond; choose {}",
+      upright ? "thickness" : "eye", of_line, of_intrados,
+      upright ? "less thickness; a solid shaft is a wall with `cuts` (docs/my_vault.md)"
+              : "a larger eye or less thickness"));
 }
 
 }  // namespace
@@ -222,7 +224,7 @@ SurfaceMap drawn_surface(const Drawing& drawing, int rings) {
                        : over_polygon(drawing, section, std::move(surface));
   const double last = surface.num_rows;
   if (is_round || plan.kind == Plan::Kind::polygon)
-    refuse_eye(drawing.profile.back().at(1.0).x(), surface.at(last, 0.0, 0.0).x());
+    refuse_eye(drawing.profile.back().at(1.0).x(), surface.at(last, 0.0, 0.0).x(), is_upright(drawing));
   constexpr double kFlattest = 0.05;  // rise of the sides of a key stone over the thickness
   if (drawing.key_stone && surface.at(last, 0.0, drawing.thickness).z() - surface.at(last, 0.0, 0.0).z() <
                                kFlattest * drawing.thickness)

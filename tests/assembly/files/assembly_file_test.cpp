@@ -105,6 +105,7 @@ TEST(AssemblyFile, WythesRoundTrip) {
   Assembly a = test::two_block_assembly();
   const std::string without = content_hash(a);
   a.members = {"inner", "outer", "rib"};
+  a.member_originals = {"inner", "outer", "inner"};
   a.parts.back().wythe = 1;
   a.blocks.back().member = 2;
   a.vertex_layers.assign(a.vertices.size(), -1);
@@ -116,6 +117,7 @@ TEST(AssemblyFile, WythesRoundTrip) {
   write_assembly(path, a);
   const Assembly b = read_assembly(path);
   EXPECT_EQ(b.members, a.members);
+  EXPECT_EQ(b.member_originals, a.member_originals);
   EXPECT_EQ(b.parts.front().wythe, 0);
   EXPECT_EQ(b.parts.back().wythe, 1);
   EXPECT_EQ(b.blocks.back().member, 2);

@@ -1,5 +1,6 @@
 // The horizontal pressure of fill on the faces beside it, against closed forms.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -138,6 +139,22 @@ TEST(EarthPressure, OfTwoSpandrelWallsBothBearAlike) {
     EXPECT_LE((sums["spandrel 2"] - Vec3(0.0, exact, 0.0)).norm(), 1e-9 * exact) << "rounding";
     EXPECT_LE(std::abs(sums["barrel"].y()), 1e-9 * exact) << "its ends are free";
   }
+}
+
+// Earth against a vertical back presses on nothing, which the generator says, with the cure.
+TEST(EarthPressure, OnAVerticalBackHasAWarning) {
+  const auto warns = [](const std::string& wall) {
+    const Case scene = case_of(
+        "geometry:\n  surface: {type: wall, length: 4, height: 3, thickness: 1}\n"
+        "  bond: {type: stack, rings: 6, blocks_per_ring: 4}\n" +
+        wall);
+    return std::ranges::any_of(generate(scene).case_warnings, [](const std::string& warning) {
+      return warning.starts_with("loads.faces[0].fill.horizontal = 0.4: has no effect");
+    });
+  };
+  const std::string earth = "loads: {faces: [{fill: {level: 3.3, unit_weight: 18000, horizontal: 0.4}}]}\n";
+  EXPECT_TRUE(warns(earth));
+  EXPECT_FALSE(warns("  cuts: [{type: plane, point: [0, 1, 0], normal: [0, 6, 0.01]}]\n" + earth));
 }
 
 // A traction beside a fill acts on the faces of its kind, as alone, not on beds above the level of the fill.

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/applied_loads.hpp"
+#include "assembly/model/block_region.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::members_test {
@@ -171,6 +173,21 @@ TEST(Members, HaveCopies) {
   EXPECT_LT((assembly.sheets[4].origin - Vec3(-12.0, 0.0, 0.0)).norm(), 1e-14) << "half round";
   EXPECT_EQ(assembly.members, (std::vector<std::string>{"pier", "top", "pier 2", "top 2", "pier 3", "top 3",
                                                         "pier 4", "top 4"}));
+  // The name of a member means its copies, too; that of a copy means it alone.
+  const auto loaded = [&](const std::string& member, FaceKind kind) {
+    Loads loads;
+    loads.faces = {{.faces = kind, .member = member, .traction = Vec3(0.0, 0.0, -1e3)}};
+    double sum = 0.0;
+    for (const PointForce& force : applied_loads(loads, assembly)) sum -= force.force.z();
+    return sum;
+  };
+  EXPECT_GT(loaded("pier 3", FaceKind::extrados), 0.0);
+  for (const FaceKind kind : {FaceKind::extrados, FaceKind::top}) {
+    const char* member = kind == FaceKind::top ? "top" : "pier";
+    EXPECT_NEAR(loaded(member, kind), 4.0 * loaded(member + std::string(" 3"), kind), 1e-8) << "rounding, N";
+  }
+  EXPECT_EQ(blocks_of_region({.member = "pier"}, assembly, true, "key").size(), 4u);
+  EXPECT_EQ(blocks_of_region({.member = "pier 2"}, assembly, true, "key").size(), 1u);
   pier.copies = Copies{.count = 3, .by = Vec3(0.0, 7.0, 1.0)};
   const Assembly steps = check_and_report(members_case({pier, top}), &row);
   EXPECT_LT((steps.sheets[4].origin - Vec3(6.0, 14.0, 2.0)).norm(), 1e-14);
@@ -394,6 +411,48 @@ TEST(Members, AreRefusedWithTheirNames) {
   cap.surface = segment;
   EXPECT_NE(refusal_of(members_case({low, cap})).find("the first bed of cap is not level"),
             std::string::npos);
+}
+
+/// A wall from x, 0.8 m long.
+Member wall_from(const std::string& name, double x) {
+  Member wall;
+  wall.name = name;
+  wall.at = Place{{x, 0.0, 0.0}, 0.0};
+  wall.surface = WallSurface{.length = 0.8, .height = 3.0, .thickness = 0.6};
+  wall.bond = StackBond{4, 1, 1, {}};
+  return wall;
+}
+
+// Each message names a cure, which works.
+TEST(Members, OnTwoBearersAreRefusedWithACure) {
+  Member left = wall_from("left", -1.6), lintel = wall_from("lintel", 0.0);
+  lintel.on = "left";
+  lintel.at.reset();
+  std::get<WallSurface>(lintel.surface).length = 3.2;
+  left.mirror = Mirror{};
+  EXPECT_NE(refusal_of(members_case({left, lintel})).find("list the others as a member after it"),
+            std::string::npos);
+  left.mirror.reset();
+  ModelReport report;
+  check_and_report(members_case({left, lintel, wall_from("right", 0.8)}), &report);
+  EXPECT_EQ(report.islands, 1);
+
+  VaultSurface horseshoe;
+  horseshoe.plan = {.kind = Plan::Kind::line, .length = 0.6};
+  horseshoe.profile = {.kind = Profile::Kind::horseshoe, .span = 2.0, .below_deg = 25.0};
+  horseshoe.thickness = 0.3;
+  horseshoe.beds = VaultSurface::Beds::given;
+  horseshoe.bed_angles_deg = {0.0, 90.0};
+  Member arch;
+  arch.name = "arch";
+  arch.on = "left";
+  arch.surface = horseshoe;
+  arch.bond = StackBond{11, 1, 1, {}};
+  left.mirror = Mirror{};
+  EXPECT_NE(refusal_of(members_case({left, arch})).find("here {origin: [0, 0, 0]}"), std::string::npos);
+  arch.at = Place{};
+  check_and_report(members_case({left, arch}), &report);
+  EXPECT_EQ(report.islands, 1);
 }
 
 }  // namespace

@@ -50,6 +50,19 @@ TEST(Eye, LiesOnTheProfile) {
   expect_part(refusal(closed), "geometry.surface.eye = 0.5: the profile ends at r = 1 m");
 }
 
+// No eye fits an upright profile. Each message names the cure that is left, and does not send to the other.
+TEST(Eye, OfAnUprightProfileIsLeftOut) {
+  for (const double eye : {1.0, 2.0, 2.5})
+    expect_part(refusal(vault(Profile::Kind::straight, eye)),
+                "the profile is nowhere wider than at its end, r = 2 m; leave out `eye` and key_stone");
+  VaultSurface solid = vault(Profile::Kind::straight, 0.0);
+  solid.line = VaultSurface::Line::extrados;
+  solid.thickness = 2.0;
+  expect_part(refusal(solid), "geometry.surface.thickness: on the last bed the drawn line lies at r = 2 m");
+  solid.thickness = 1.9;
+  EXPECT_EQ(refusal(solid), "");
+}
+
 // An arc whose end is computed may end a little outside.
 TEST(Eye, MayBeTheEndOfTheProfile) {
   VaultSurface ends = vault(Profile::Kind::chain, 0.7);

@@ -165,6 +165,14 @@ TEST(SupportRegion, OfAMemberWithWythesIsNamedByEach) {
   for (const char* member : {"drum", "drum inner", "drum outer"}) EXPECT_EQ(support_of(member), 0) << member;
   for (const char* member : {"dome", "inner", "outer"}) EXPECT_EQ(support_of(member), 3) << member;
   EXPECT_THROW(blocks_of_region({.member = "drum"}, assembly, false, "key"), InputError) << "free blocks";
+  // The same two stacks as a drum and its copy.
+  assembly.members = {"drum inner", "drum outer", "drum inner 2", "drum outer 2"};
+  assembly.member_originals = {"drum inner", "drum outer", "drum inner", "drum outer"};
+  assembly.sheets[1].name = "drum 2";
+  for (const char* member : {"drum", "drum inner", "drum outer"})
+    EXPECT_EQ(blocks_of_region({.member = member}, assembly, true, "key").size(), 2u) << member;
+  for (const char* member : {"drum 2", "drum inner 2"}) EXPECT_EQ(support_of(member), 3) << member;
+  EXPECT_EQ(blocks_of_region({.member = "drum outer"}, assembly, false, "key").size(), 2u) << "free blocks";
 }
 
 TEST(SupportRegion, ErrorsNameWhatIsThere) {
