@@ -21,6 +21,7 @@
 #include "assembly/model/random_field.hpp"
 #include "generators/chains.hpp"
 #include "generators/importer/import_supports.hpp"
+#include "generators/stereotomy/borne_vaults.hpp"
 #include "generators/stereotomy/cut_blocks.hpp"
 #include "generators/stereotomy/placement.hpp"
 #include "generators/surface/make_surface.hpp"
@@ -162,8 +163,8 @@ std::string place_between(const Storey& member, const std::vector<Storey>& store
 
 /// Refuses a member beside the one on which it stands: its other end, on a support, may hold it in the air.
 void refuse_misplaced(const std::vector<Storey>& storeys, const ModelReport& report) {
-  for (size_t i = 1; i < storeys.size(); ++i)
-    if (storeys[i].stands_on_previous && report.is_joined[i] == 0)
+  for (int i = 1; i < static_cast<int>(storeys.size()); ++i)
+    if (storeys[i].stands_on_previous && !report.joined_sheets.contains({i - 1, i}))
       throw InputError(fmt::format(
           "{}.on = {}: nothing of {} touches {}, on whose axis it stands; an arch on two walls, which are "
           "copies, requires `at` in the middle between them{}, a half arch on one a `straight` vault of its "
@@ -298,6 +299,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
   refuse_floating(geometry, assembly, report->model, tolerances.joint_gap);
   refuse_misplaced(storeys, report->model);
   refuse_hanging_feet(storeys, report->model);
+  find_borne_vaults(report->model.joined_sheets, &assembly);
   if (!geometry.stage) report->model.shell_volume = smooth_volume(storeys);
   report->springings = springings_of(storeys);
   const Case resolved = resolved_case(input, assembly);

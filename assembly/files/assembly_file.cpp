@@ -130,6 +130,14 @@ void read_members(const Mesh& mesh, Assembly* assembly) {
   assembly->vertex_depths = array_of<double>(mesh, mesh.point_data, "depth", corners);
 }
 
+void read_sheets(const Mesh& mesh, Assembly* assembly) {
+  std::vector<Sheet>& sheets = assembly->sheets;
+  sheets = read_all_rows<Sheet>(mesh, "sheet_name");
+  if (!mesh.has(mesh.field_data, "sheet_vault")) return;
+  const auto& vault = array_of<std::int32_t>(mesh, mesh.field_data, "sheet_vault", sheets.size());
+  for (size_t i = 0; i < sheets.size(); ++i) sheets[i].vault = vault[i];
+}
+
 /// The sheet of a file of version 0.2, which does not state it: those programs put one box below a wall and
 /// two behind the ends of an arch.
 Sheet assumed_sheet(const Assembly& assembly) {
@@ -196,7 +204,9 @@ void check(const Assembly& assembly, const std::string& path) {
     require(sheet.first_ring == first && (sheet.num_rings > 0 || assembly.num_rings == 0) &&
                 sheet.num_rings <= assembly.num_rings - first && sheet.sails > 0 &&
                 sheet.origin.allFinite() && std::isfinite(sheet.turn) && !(i == 0 && sheet.on_previous) &&
-                sheet.thrust_lines <= Sheet::ThrustLines::radial,
+                sheet.thrust_lines <= Sheet::ThrustLines::radial && sheet.vault >= -1 &&
+                sheet.vault < static_cast<int>(assembly.sheets.size()) &&
+                (sheet.vault < 0 || assembly.sheets[sheet.vault].thrust_lines != Sheet::ThrustLines::none),
             "sheet", i);
   }
   for (size_t k = 0; k < assembly.ties.size(); ++k) {
@@ -227,6 +237,9 @@ void write_assembly(const std::string& path, const Assembly& assembly, const std
   for (const auto& [name, warnings] : {std::pair("block_warnings", &assembly.block_warnings),
                                        std::pair("case_warnings", &assembly.case_warnings)})
     if (!warnings->empty()) mesh.field_data.push_back({name, 1, *warnings});
+  if (std::ranges::any_of(assembly.sheets, [](const Sheet& s) { return s.vault >= 0; }))
+    mesh.field_data.push_back(
+        column<std::int32_t>("sheet_vault", assembly.sheets, [](const Sheet& s) { return s.vault; }));
   if (!options.empty()) mesh.field_data.push_back({"options", 1, std::vector<std::string>{options}});
   write_mesh(path, mesh);
 }
@@ -260,7 +273,7 @@ Assembly read_assembly(const std::string& path) {
   if (has("tie_block_a")) assembly.ties = read_all_rows<BuiltTie>(mesh, "tie_block_a");
   if (has("chain_name")) assembly.chains = read_all_rows<BuiltChain>(mesh, "chain_name");
   read_members(mesh, &assembly);
-  if (has("sheet_name")) assembly.sheets = read_all_rows<Sheet>(mesh, "sheet_name");
+  if (has("sheet_name")) read_sheets(mesh, &assembly);
   check(assembly, path);
   if (!has("sheet_name") && assembly.num_rings > 0) assembly.sheets = {assumed_sheet(assembly)};
   if (content_hash(assembly) != mesh.field<std::string>("content_hash"))

@@ -78,6 +78,7 @@ std::pair<int, int> Assembly::stack_of(int ring) const {
 const Sheet* Assembly::vault_of(int ring) const {
   const auto has_outward = [](const Sheet& sheet) { return sheet.thrust_lines != Sheet::ThrustLines::none; };
   const auto own = std::ranges::find_if(sheets, [&](const Sheet& sheet) { return sheet.has_ring(ring); });
+  if (own != sheets.end() && own->vault >= 0) return &sheets[own->vault];
   const auto next = std::find_if(own, sheets.end(), has_outward);
   if (next != sheets.end()) return &*next;
   const auto before = std::find_if(std::make_reverse_iterator(own), sheets.rend(), has_outward);

@@ -123,8 +123,9 @@ struct Assembly {
   Sheet axis_of(int ring) const;
   /// Rings [first, second) of the stack of sheets to which a course belongs; all rings without sheets.
   std::pair<int, int> stack_of(int ring) const;
-  /// The sheet along whose outwards a course pushes: its own; of a wall the next that has one, a vault that
-  /// stands on it, else the nearest before it; of blocks of no course the last. Null if no sheet has one.
+  /// The sheet along whose outwards a course pushes: its own; of a wall Sheet::vault, which one vault alone
+  /// leaves open: the next in the list, else the one before; of blocks of no course the last. Null if no sheet
+  /// has one.
   const Sheet* vault_of(int ring) const;
   /// Horizontal unit vector outwards at a point (m) of a course, see Sheet::outward, or of imported blocks;
   /// NaN without a vault.

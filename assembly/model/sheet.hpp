@@ -25,6 +25,9 @@ struct Sheet {
   bool on_previous = false;  ///< its first bed lies on the last bed of the sheet before
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< m, a point of its vertical axis
   double turn = 0.0;  ///< rad, about that axis, from the x axis of the world to its own
+  /// Of a wall or pier of several vaults: index of the sheet along whose outwards it pushes, by joints the
+  /// nearest, one in its own stack before all. -1: see Assembly::vault_of.
+  int vault = -1;
 
   bool has_ring(int ring) const { return ring >= first_ring && ring < first_ring + num_rings; }
   /// True if its axis is the z axis of the world.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,13 +28,13 @@ class PlaneOfTwo {
     rounding_ = 1e-9 * box.diagonal().norm();
   }
 
-  /// Faces of a storey in the plane, with their outward normal along its normal or against it.
-  std::vector<int> faces(size_t storey, bool along, bool with_supports) const {
+  /// Faces of stones of a storey in the plane, with their outward normal along its normal or against it.
+  std::vector<int> faces(size_t storey, bool along) const {
     std::vector<int> found;
     const double sign = along ? 1.0 : -1.0;
     for (size_t p = starts_[storey].part; p < starts_[storey + 1].part; ++p) {
       const Part& part = assembly_->parts[p];
-      if (assembly_->blocks[part.block].fixed && !with_supports) continue;
+      if (assembly_->blocks[part.block].fixed) continue;
       for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
         const std::vector<Vec3> points = face_points(*assembly_, f);
         const bool in_plane = std::ranges::all_of(points, [&](const Vec3& corner) {
@@ -64,21 +66,45 @@ Plane in_world(const Plane& plane, const Storey& storey) {
   return moved({plane}, storey.placement).front();
 }
 
+/// How far the stones behind faces in a plane are bedded on it, from 0 to 1: the squares of the cosines of its
+/// normal with the beds of each, by area. Stones without beds do not count.
+double along_beds(const std::vector<int>& faces, const Vec3& normal, const Assembly& assembly) {
+  double sum = 0.0, area = 0.0;
+  for (const int f : faces) {
+    const Part& part = *std::prev(std::ranges::upper_bound(assembly.parts, f, {}, &Part::face_start));
+    std::optional<double> nearest;
+    for (int g = part.face_start; g < part.face_start + part.num_faces; ++g) {
+      if (assembly.face_kinds[g] != FaceKind::bed && assembly.face_kinds[g] != FaceKind::top) continue;
+      const double cosine = polygon_plane(face_points(assembly, g)).normal.dot(normal);
+      nearest = std::max(nearest.value_or(0.0), cosine * cosine);
+    }
+    if (!nearest) continue;
+    const double own = polygon_area(face_points(assembly, f));
+    sum += own * *nearest;
+    area += own;
+  }
+  return area > 0.0 ? sum / area : 0.0;
+}
+
 void join_mitre(std::span<const Storey> storeys, std::span<const MemberStart> starts, size_t i, size_t k,
                 Assembly* assembly) {
   const Cut& cut = storeys[i].cuts[k];
   const auto other =
       static_cast<size_t>(std::ranges::find(storeys, cut.member, &Storey::name) - storeys.begin());
   const Vec3 lost = cut.normal.normalized();
-  const PlaneOfTwo both(starts, in_world({lost, lost.dot(cut.point)}, storeys[i]), assembly);
-  const std::vector<int> own = both.faces(i, true, false), beyond = both.faces(other, false, false);
+  const Plane plane = in_world({lost, lost.dot(cut.point)}, storeys[i]);
+  const PlaneOfTwo both(starts, plane, assembly);
+  const std::vector<int> own = both.faces(i, true), beyond = both.faces(other, false);
   if (!both.share_a_patch(own, beyond))
     throw InputError(
         fmt::format("{}.cuts[{}].as = mitre: no stone of {} meets one of {} on the plane, which both must "
                     "reach: make them longer, or move the plane",
                     storeys[i].key, k, storeys[i].name, cut.member));
+  constexpr double kDiagonal = 0.5 + 1e-9;  // cos2 of 45 degrees, and rounding
+  const bool is_bed = std::max(along_beds(own, plane.normal, *assembly),
+                               along_beds(beyond, plane.normal, *assembly)) > kDiagonal;
   for (const std::vector<int>* faces : {&own, &beyond})
-    for (const int f : *faces) assembly->face_kinds[f] = FaceKind::head;
+    for (const int f : *faces) assembly->face_kinds[f] = is_bed ? FaceKind::bed : FaceKind::head;
 }
 
 }  // namespace
@@ -114,7 +140,7 @@ void check_meetings(std::span<const Storey> storeys, std::span<const MemberStart
     const auto other =
         static_cast<size_t>(std::ranges::find(storeys, storeys[i].beside, &Storey::name) - storeys.begin());
     const PlaneOfTwo both(starts, in_world(storeys[i].limits.front(), storeys[i]), assembly);
-    if (!both.share_a_patch(both.faces(i, true, true), both.faces(other, false, true)))
+    if (!both.share_a_patch(both.faces(i, true), both.faces(other, false)))
       throw InputError(fmt::format(
           "{}.beside.member = {}: nothing of {} touches {} in their common plane: move it by `at`, "
           "or remove `beside`",

@@ -152,17 +152,17 @@ std::string places_of_members(const Assembly& assembly, int a, int b) {
 /// Pairs of blocks that overlap by more than the bound, and by how much (m).
 using Overlaps = std::map<std::pair<int, int>, double>;
 
-/// By sheet: true if a block has a joint with one of the sheet before. Supports do not count.
-std::vector<char> joined_sheets(const Assembly& assembly, const std::vector<std::pair<int, int>>& joints) {
-  std::vector<char> is_joined(assembly.sheets.size(), 0);
+std::set<std::pair<int, int>> joined_sheets(const Assembly& assembly,
+                                            const std::vector<std::pair<int, int>>& joints) {
+  std::set<std::pair<int, int>> joined;
   for (const auto& [a, b] : joints) {
-    const Sheet* low = assembly.sheet_of(assembly.blocks[a].ring);
-    const Sheet* high = assembly.sheet_of(assembly.blocks[b].ring);
-    if (!low || !high || assembly.blocks[a].fixed || assembly.blocks[b].fixed) continue;
-    if (low > high) std::swap(low, high);
-    if (high - low == 1) is_joined[high - assembly.sheets.data()] = 1;
+    const Sheet* one = assembly.sheet_of(assembly.blocks[a].ring);
+    const Sheet* other = assembly.sheet_of(assembly.blocks[b].ring);
+    if (!one || !other || one == other || assembly.blocks[a].fixed || assembly.blocks[b].fixed) continue;
+    const Sheet* first = assembly.sheets.data();
+    joined.insert(std::minmax(static_cast<int>(one - first), static_cast<int>(other - first)));
   }
-  return is_joined;
+  return joined;
 }
 
 std::vector<char> borne_rings(const Assembly& assembly, const std::vector<std::pair<int, int>>& joints) {
@@ -266,7 +266,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   std::ranges::sort(joints);
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
   report->num_joints = static_cast<int>(joints.size());
-  report->is_joined = joined_sheets(assembly, joints);
+  report->joined_sheets = joined_sheets(assembly, joints);
   report->is_borne = borne_rings(assembly, joints);
   report->hanging_corners = find_hanging_corners(assembly, joints);
   for (const NarrowJoint& joint : narrow)

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly/base/error.hpp"
@@ -46,11 +48,11 @@ struct ModelReport {
   double max_overlap = 0.0;            ///< largest overlap of parts of two blocks; <= 0 if none overlap
   double max_joint_gap = 0.0;          ///< largest distance between the planes of two faces in a joint
   double shortest_edge = 0.0;
-  int islands = 0;                        ///< connected components of the graph of joints and ties
-  std::vector<int> blocks_without_joint;  ///< and without tie
-  std::optional<int> floating;            ///< first block of an island without a support
-  std::vector<char> is_joined;            ///< by sheet: a block has a joint with one of the sheet before
-  std::vector<char> is_borne;             ///< by ring: a block has a joint with a support or another sheet
+  int islands = 0;                              ///< connected components of the graph of joints and ties
+  std::vector<int> blocks_without_joint;        ///< and without tie
+  std::optional<int> floating;                  ///< first block of an island without a support
+  std::set<std::pair<int, int>> joined_sheets;  ///< with joints between their free blocks, lower number first
+  std::vector<char> is_borne;  ///< by ring: a block has a joint with a support or another sheet
   std::vector<HangingCorner> hanging_corners;
   std::vector<NarrowJoint> narrow_joints;  ///< ignored by contact detection
   std::vector<FacePair> joint_faces;       ///< one pair per two parts that meet; only if checked part by part

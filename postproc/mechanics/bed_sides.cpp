@@ -1,6 +1,7 @@
 #include "postproc/mechanics/bed_sides.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 namespace cupola {
@@ -71,7 +72,11 @@ int BedSides::mated_side(const Part& part, int face) const {
   int score = 0;
   for (const int v : assembly_.face(face))
     score += (rings_[v].second > part.ring ? 1 : 0) - (rings_[v].first < part.ring ? 1 : 0);
-  return (score > 0 ? 1 : 0) - (score < 0 ? 1 : 0);
+  const int side = (score > 0 ? 1 : 0) - (score < 0 ? 1 : 0);
+  // A skewback through several courses shares its lower edge with that of the course below, and looks up.
+  constexpr int kEdge = 2;
+  if (side == 0 || std::abs(score) > kEdge) return side;
+  return side * polygon_plane(face_points(assembly_, face)).normal.dot(progress_[part.ring]) < 0.0 ? 0 : side;
 }
 
 int BedSides::side_of(const Part& part, int face) const {

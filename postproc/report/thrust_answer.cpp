@@ -180,6 +180,31 @@ std::string place_of_range(const Evaluation& e, const Sheet& sheet, const ForceR
   return text + at_level(level, base) + (counted.held_higher ? kAndHigher : "");
 }
 
+/// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
+std::string spread_over(const std::vector<Reaction>& supports) {
+  if (supports.size() < 2) return "";
+  const auto [lowest, highest] = std::ranges::minmax(supports, {}, &Reaction::outward);
+  if (alike(lowest.outward, highest.outward))
+    return fmt::format("{} on each of {}", force_text(highest.outward), counted(supports.size(), "support"));
+  return fmt::format("{} to {}, depending on the support",
+                     lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
+}
+
+/// What the supports under a vault on other members bear outwards: these push, too. "" where it is the thrust.
+std::string under_the_bearers(const Evaluation& e, const std::vector<const Sheet*>& pushing) {
+  double thrust = 0.0, borne = 0.0;
+  bool on_blocks = false;
+  for (const Sheet* sheet : pushing)
+    for (const Thrust& side : thrusts_of(e, *sheet)) {
+      thrust += side.force;
+      on_blocks |= side.on_blocks;
+    }
+  for (const Reaction& r : e.reactions) borne += r.outward;
+  if (!on_blocks || e.reactions.empty() || alike(thrust, borne)) return "";
+  return "the supports bear outwards " +
+         (e.reactions.size() > 1 ? spread_over(e.reactions) : force_text(e.reactions.front().outward));
+}
+
 KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
   std::string detail = "certain for every history";
   if (range.chosen)
@@ -187,8 +212,11 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
                           range_unit(range).after_blank());
   const std::vector<const Sheet*> of_model = pushing_sheets(e.assembly), standing = pushing_sheets(e);
   if (of_model.size() > 1) detail += "; of " + of_model.front()->name;
-  if (std::ranges::find(standing, of_model.front()) != standing.end() && !e.rings.empty())
+  if (std::ranges::find(standing, of_model.front()) != standing.end() && !e.rings.empty()) {
     detail += "; " + place_of_range(e, *of_model.front(), range);
+    if (const std::string under = under_the_bearers(e, standing); !under.empty())
+      detail += fmt::format("; in the state selected {}, whose range is that of a `reaction`", under);
+  }
   if (least(range) < 0.0) {
     detail += "; inwards where negative";
     if (const auto tension = net_hoop_tension(e, least(range)))
@@ -198,16 +226,6 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
     if (other.quantity.starts_with("thrust of "))
       detail += fmt::format("; {} {}", other.quantity.substr(7), least_to_greatest(other));
   return {"Outward thrust", least_to_greatest(range), detail};
-}
-
-/// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
-std::string spread_over(const std::vector<Reaction>& supports) {
-  if (supports.size() < 2) return "";
-  const auto [lowest, highest] = std::ranges::minmax(supports, {}, &Reaction::outward);
-  if (alike(lowest.outward, highest.outward))
-    return fmt::format("{} on each of {}", force_text(highest.outward), counted(supports.size(), "support"));
-  return fmt::format("{} to {}, depending on the support",
-                     lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
 }
 
 /// What supports bear of the thrust per metre; "" where those of other courses bear it, too.
@@ -286,6 +304,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (!thrusts.front().on_blocks) add(spread_over(thrusts.front().supports));
   if (alone) add(share_of_weight(e, thrusts.front().force));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
+  add(under_the_bearers(e, pushing));
   add(doubt_of(e));
   return KeyNumber{"Outward thrust", values_text(thrusts),
                    after_last_stage(e) + fmt::format("{}", fmt::join(details, "; "))};

@@ -32,5 +32,25 @@ TEST(Skewbacks, AreNamedWhereAnArchSlidesOnSteepLevelBeds) {
   EXPECT_EQ(how_it_gives_way(e).find("level beds"), std::string::npos) << "a head joint";
 }
 
+// An arch that has them slides on no level bed. Their joints carry it as those of its other courses do: as
+// heads they were in no row of the rings.
+TEST(Skewbacks, AreTheSpringingOfTheirArch) {
+  const ProgramFolder folder;
+  Evaluation e = solve_and_evaluate(
+      read_case(bundled_folder() + "/bridge_abutments.yaml", {"analysis={type: static}"}), folder);
+  const Sheet& arch = e.assembly.sheets.back();
+  const RingSum& springing = e.rings.at(arch.first_ring);
+  EXPECT_GT(springing.mean_resultant, 0.0);
+  EXPECT_GT(springing.largest_friction_use, 0.0);
+  MechanismMotion motion;
+  motion.joints.sliding = 4;
+  motion.sliding = 1.0;
+  motion.by_course[{arch.first_ring, false}].sliding = 1.0;
+  motion.by_course[{arch.first_ring, false}].on = e.assembly.sheets.front().num_rings - 1;
+  e.gives_way = motion;
+  e.scene.joints.friction = 0.2;
+  EXPECT_EQ(how_it_gives_way(e).find("level beds"), std::string::npos) << how_it_gives_way(e);
+}
+
 }  // namespace
 }  // namespace cupola::skewbacks_test

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "assembly/case/case_reader.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/evaluation/thrust.hpp"
 #include "postproc/report/answers.hpp"
 #include "tests/pipeline/static_run.hpp"
@@ -107,6 +108,40 @@ TEST(ThrustOfStacks, ARangeOfTheThrustIsThatOfEachStack) {
   const std::string detail = thrust_answer(e)->detail;
   EXPECT_NE(detail.find("; of large; "), std::string::npos) << detail;
   EXPECT_NE(detail.find("; of small "), std::string::npos) << detail;
+}
+
+// Walls on the jambs of an arch lean on each other beside it: their supports bear more than its thrust, and
+// the first screen says what. Without these walls the supports bear the thrust alone, which is not repeated.
+TEST(ThrustOfStacks, WhatPushesBesideAnArchIsNamed) {
+  for (const bool has_walls : {true, false}) {
+    const ProgramFolder folder;
+    const Evaluation e = solve_and_evaluate(
+        read(
+            folder,
+            fmt::format(
+                "geometry:\n  members:\n"
+                "    - name: jamb\n      at: {{origin: [-2, 0, 0]}}\n"
+                "      mirror: {{point: [0, 0, 0], normal: [1, 0, 0]}}\n"
+                "      surface: {{type: wall, length: 1, height: 1, thickness: 0.5}}\n"
+                "      bond: {{type: stack, rings: 2, blocks_per_ring: 1}}\n{}"
+                "    - name: ring\n      on: jamb\n      at: {{origin: [0, 0, 0]}}\n"
+                "      surface: {{type: vault, plan: {{type: line, length: 0.5}}, profile: {{type: "
+                "semicircle, "
+                "span: 2}}, thickness: 0.3}}\n      bond: {{type: stack, rings: 9, blocks_per_ring: 1}}\n"
+                "joints: {{friction: 0.6, compliance: {{per: area}}}}\n",
+                has_walls ? "    - name: upper\n      on: jamb\n"
+                            "      surface: {type: wall, length: 2, height: 2, thickness: 0.5}\n"
+                            "      bond: {type: running, rings: 6, blocks_per_ring: 3, slices_per_block: 2}\n"
+                            "      cuts: [{type: under, member: ring}]\n"
+                          : "")),
+        folder);
+    ASSERT_TRUE(at_rest(e)) << e.summary.message;
+    const std::string detail = thrust_answer(e)->detail;
+    const std::string borne = fmt::format("; the supports bear outwards {} on each of 2 supports",
+                                          force_text(e.reactions[0].outward));
+    EXPECT_EQ(detail.find(borne) != std::string::npos, has_walls) << detail;
+    EXPECT_EQ(detail.find("bear outwards") != std::string::npos, has_walls) << detail;
+  }
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
   if (derivative_of_loads(scene_at, high).isZero(0.0)) {
     limit = not_found(
         std::move(limit),
-        "the structure stands, and no load depends on the parameter: give the load that it multiplies, not 0 "
-        "at the time 0");
+        "the structure stands, and no load depends on the parameter: give a load other than weight and fill, "
+        "not 0 at the time 0");
     scene = scene_at(high);
     limit.stands_at_both_ends = true;
     limit.gamma = solve_conic(scene.problem).gamma;

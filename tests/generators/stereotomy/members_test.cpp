@@ -256,6 +256,21 @@ TEST(Members, LeanOnOthersAndHaveMirrorImages) {
   EXPECT_GT(leaning_blocks, 1);
 }
 
+// A spur beside a tower touches its support, and no stone of its round wall.
+TEST(Members, DoNotLeanOnSupports) {
+  Member spur;
+  spur.name = "spur";
+  spur.surface = WallSurface{.length = 1.2, .height = 4.0, .thickness = 0.6};
+  spur.bond = RunningBond{8, 2, 2};
+  spur.at = Place{{0.0, -0.3, 0.0}};
+  spur.beside = Beside{"tower", Beside::Side::right};
+  Member round = tower("tower", 6.0);
+  round.bond = RunningBond{8, 32, 2};
+  const std::string refusal = refusal_of(members_case({round, spur}));
+  EXPECT_NE(refusal.find("nothing of spur touches tower in their common plane"), std::string::npos)
+      << refusal;
+}
+
 // A mirror image of a member that is its own mirror image is the member.
 TEST(Members, AMirroredDomeIsTheDome) {
   Member dome = tower("dome", 10.0);

@@ -59,6 +59,47 @@ TEST(Mitres, AMitreCutsBothMembers) {
   EXPECT_NEAR(area, 2.0 * std::numbers::sqrt2 * section, 1e-12);
 }
 
+// An arch springs from a wall by beds, whichever way the wall looks: at 45 degrees or more from its beds the
+// mitre lies nearer to its heads, and on those of the arch all the same.
+TEST(Mitres, ASkewbackIsABedOfItsArch) {
+  for (const double rise_deg : {30.0, 60.0, 80.0}) {
+    const double rise = rise_deg * std::numbers::pi / 180.0;
+    Member pier;
+    pier.name = "pier";
+    pier.at = Place{{1.0, 0.0, 0.0}};
+    pier.mirror = Mirror{Vec3::Zero(), Vec3::UnitX()};
+    pier.surface = WallSurface{1.0, 2.6, 0.4};
+    pier.bond = RunningBond{13, 2, 2};
+    pier.cuts = {plane({0.0, 0.0, 2.0}, {-std::sin(rise), 0.0, std::cos(rise)}, Cut::As::mitre)};
+    pier.cuts[0].member = "arch";
+    Member arch;
+    arch.name = "arch";
+    arch.at = Place{{0.0, 0.0, 2.0}};
+    VaultSurface surface = barrel(2.0, 0.3, 0.4);
+    surface.profile.kind = Profile::Kind::chain;
+    surface.profile.points = {{1.0, 0.0}, {0.0, 0.0}, {}, {}};
+    surface.beds = VaultSurface::Beds::given;
+    surface.bed_angles_deg = {rise_deg, 90.0};
+    arch.surface = surface;
+    arch.bond = StackBond{9, 1, 1, {}};
+    Case c;
+    c.geometry.members = {pier, arch};
+    c.geometry.has_shell = false;
+    const Assembly assembly = generate(c);
+    int found = 0;
+    for (const Part& part : assembly.parts)
+      for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+        const Plane face = polygon_plane(face_points(assembly, f));
+        if (assembly.blocks[part.block].fixed ||
+            std::abs(std::abs(face.normal.dot(Vec3(std::sin(rise), 0.0, std::cos(rise)))) - 1.0) > 1e-9)
+          continue;
+        ++found;
+        EXPECT_EQ(assembly.face_kinds[f], FaceKind::bed) << rise_deg;
+      }
+    EXPECT_GE(found, 2) << rise_deg;
+  }
+}
+
 TEST(Mitres, AMitreIsRefusedWhereTheMembersDoNotMeet) {
   EXPECT_NE(refusal_of(corridor({-3.0, 5.0, 4.0})).find("no stone of first meets one of second on the plane"),
             std::string::npos)

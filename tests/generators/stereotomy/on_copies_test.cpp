@@ -6,7 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "assembly/files/assembly_file.hpp"
 #include "generators/generate.hpp"
+#include "tests/fresh_folder.hpp"
 #include "tests/generators/models.hpp"
 
 namespace cupola::on_copies_test {
@@ -143,6 +145,27 @@ TEST(OnCopies, SeveralMembersMayShareThem) {
   EXPECT_EQ(report.num_blocks, 4 * 3 + 4 * 15);
   EXPECT_EQ(report.num_joints, 4 * (1 + 2) + 4 * (14 + 2));
   EXPECT_EQ(report.islands, 1);
+}
+
+// Two arches apart on two piers each, the second across the first: all piers come before both in the list.
+TEST(OnCopies, APierPushesAsTheArchOnIt) {
+  Case two = arcade();
+  Copies& piers = *two.geometry.members[0].copies;
+  piers.count = 1;
+  for (const auto& [x, y] : {std::pair(3.5, 0.0), {20.0, 0.0}, {20.0, 4.0}})
+    piers.at.push_back({{x, y, 0.0}});
+  two.geometry.copies = Copies{.at = {{{20.5, 2.5, 0.0}, 90.0}}};
+  const Assembly assembly = generate(two);
+  ASSERT_EQ(assembly.sheets.size(), 6u);
+  for (const int pier : {0, 1}) {
+    EXPECT_EQ(assembly.vault_of(3 * pier), &assembly.sheets[4]) << pier;
+    EXPECT_EQ(assembly.vault_of(3 * (pier + 2)), &assembly.sheets[5]) << pier;
+  }
+  const Vec3 foot(20.5, 0.5, 0.0);
+  EXPECT_LT((assembly.outward(6, foot) + Vec3::UnitY()).norm(), 1e-15) << "rounding of 90 degrees";
+  const std::string path = test::fresh_folder("on_copies") + "/assembly.vtu";
+  write_assembly(path, assembly);
+  EXPECT_EQ(read_assembly(path).sheets, assembly.sheets);
 }
 
 TEST(OnCopies, WhatHangsIsRefused) {

@@ -59,5 +59,16 @@ TEST(BedSides, FollowFromThePartsThatMateNotFromTheCentroidsOfCourses) {
   EXPECT_EQ(shell.beds[3].size(), 12u) << "closes the wall";
 }
 
+// A skewback through several courses looks up, and shares its lower edge with the course below.
+TEST(BedSides, OfASkewbackFollowFromItsNormal) {
+  Assembly a = wing_wall();
+  const Part& last = a.parts.back();
+  const int head = last.face_start + 3;
+  for (const int v : a.face(head))
+    if (a.vertices[v].z() > 0.5) a.vertices[v].x() -= 0.1;
+  a.face_kinds[head] = FaceKind::bed;
+  EXPECT_EQ(BedSides(a, a.num_rings).side_of(last, head), 1);
+}
+
 }  // namespace
 }  // namespace cupola::bed_sides_test
