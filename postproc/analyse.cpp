@@ -26,8 +26,8 @@
 #include "postproc/tables/mesh_parts.hpp"
 #include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/result_tables.hpp"
+#include "postproc/tables/written_files.hpp"
 #include "postproc/viewer/viewer.hpp"
-#include "postproc/written_files.hpp"
 
 namespace cupola {
 namespace {

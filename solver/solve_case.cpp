@@ -154,6 +154,17 @@ void print_summary(const Summary& summary, bool verbose) {
              summary.wall_time_seconds, static_cast<double>(summary.peak_memory_bytes) / 1e6);
 }
 
+/// Throws InputError if the run would remove or replace a file that the case reads.
+void check_output_folder(const SolveRequest& request) {
+  namespace fs = std::filesystem;
+  const fs::path output = fs::weakly_canonical(fs::absolute(request.output_folder));
+  for (const fs::path input : request.scene.inputs)
+    if (is_result_file(input.filename().string()) && fs::canonical(input).parent_path() == output)
+      throw InputError(
+          FileLocation{input.string()},
+          "the run would replace this file, which the case reads; give another folder as --output");
+}
+
 /// The checkpoint from which the run resumes. None if it starts from the beginning.
 std::optional<Checkpoint> find_checkpoint(const SolveRequest& request, const std::string& path,
                                           const std::string& assembly_hash) {
@@ -230,6 +241,7 @@ ExitCode interrupted_before_solving() {
 ExitCode solve_case(SolveRequest request) {
   const StopRequest stop;
   const double started = wall_seconds();
+  check_output_folder(request);
   std::vector<std::string> differences;
   const Assembly assembly = read_matching_assembly(&request, &differences);
   const std::string assembly_hash = content_hash(assembly);
@@ -260,8 +272,6 @@ ExitCode solve_case(SolveRequest request) {
   run.case_hash = request.scene.hash;
   run.assembly_hash = assembly_hash;
   ResultsWriter writer(request.output_folder, assembly_hash, run.frame_times, run.case_hash);
-  // A summary marks a folder as complete: remove the old one before the first frame is replaced.
-  std::filesystem::remove(std::filesystem::path(request.output_folder) / "summary.json");
 
   // 2. The analysis
   ProgressBar progress;

@@ -1,6 +1,7 @@
 #include "assembly/case/case_reader.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -17,13 +18,20 @@
 namespace cupola {
 namespace {
 
-/// Hash of the sections for which `is_read` is true.
-std::string hash_sections(const CaseNode& effective, bool (*is_read)(const std::string& name)) {
+/// Hash of the sections for which `is_read` is true, and of the contents of the files that they name: a file
+/// that changes without its name is another case.
+std::string hash_sections(const CaseNode& tree, const std::vector<NamedFile>& files,
+                          bool (*is_read)(const std::string& name)) {
   CaseNode chosen;
   chosen.kind = CaseNode::Kind::map;
-  for (const CaseNode::Entry& entry : effective.entries)
+  for (const CaseNode::Entry& entry : tree.entries)
     if (is_read(entry.key)) chosen.entries.push_back(entry);
-  return hash_text(to_yaml(chosen));
+  std::string text = to_yaml(chosen);
+  for (const NamedFile& file : files)
+    if (is_read(file.key.substr(0, file.key.find_first_of(".["))))
+      text += fmt::format("# {}: {}\n", std::filesystem::path(file.path).filename().string(),
+                          hash_file(file.path));
+  return hash_text(text);
 }
 
 /// Changes of other sections, for example friction or loads, leave the assembly valid.
@@ -34,6 +42,11 @@ bool generator_reads(const std::string& name) {
 /// Changes of the other sections leave the results valid.
 bool solver_reads(const std::string& name) {
   return name != "title" && name != "postproc" && name != "sweep" && name != "ensemble";
+}
+
+/// What lists the members changes none of them.
+bool a_member_reads(const std::string& name) {
+  return name != "sweep" && name != "ensemble";
 }
 
 /// The title, followed by the options that change the model: `Dome (with joints.friction=0.3)`.
@@ -63,14 +76,16 @@ void leave_out_keys_of_other_types(const CaseNode& effective, const std::string&
 }
 
 /// Reads a case without checking the members of its sweep.
-Case read_one_case(const std::string& path, const std::vector<std::string>& set_options) {
+Case read_one_case(const std::string& path, const std::vector<std::string>& set_options,
+                   std::string* inputs_hash = nullptr) {
   Case the_case;
   std::vector<std::string> not_inherited;
   const auto keys =
       std::make_shared<CaseNode>(load_case_tree(path, set_options, &the_case.inputs, &not_inherited));
   the_case.keys = keys;
   Section root(keys.get(), "", keys->where, path);
-  root.collect_files(&the_case.inputs);
+  std::vector<NamedFile> files;
+  root.collect_files(&files);
   std::vector<PlausibleRange> expected;
   root.collect_expected(&expected);
   declare_case(root, the_case);
@@ -80,8 +95,10 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
   the_case.title = title_with(the_case.title, set_options);
   the_case.file = path;
   the_case.effective_yaml = to_yaml(root.effective());
-  the_case.hash = hash_sections(root.effective(), solver_reads);
-  the_case.geometry_hash = hash_sections(root.effective(), generator_reads);
+  for (const NamedFile& file : files) the_case.inputs.push_back(file.path);
+  if (inputs_hash) *inputs_hash = hash_sections(*the_case.keys, files, a_member_reads);
+  the_case.hash = hash_sections(root.effective(), files, solver_reads);
+  the_case.geometry_hash = hash_sections(root.effective(), files, generator_reads);
   the_case.warnings = sentences(expected);
   the_case.warnings.insert(the_case.warnings.begin(), not_inherited.begin(), not_inherited.end());
   for (std::string& unused : unused_tensions(the_case.joints)) the_case.warnings.push_back(std::move(unused));
@@ -92,7 +109,7 @@ Case read_one_case(const std::string& path, const std::vector<std::string>& set_
 }
 
 /// Reads the case with one member's settings; `source` names the section that gives them.
-void check_member(const std::string& path, const FileLocation& where, const char* source,
+void check_member(const std::string& path, const FileLocation& where, const std::string& source,
                   const std::vector<std::string>& settings) {
   try {
     read_one_case(path, settings);
@@ -105,25 +122,25 @@ void check_member(const std::string& path, const FileLocation& where, const char
 
 void check_samples(const std::string& path, const std::vector<std::string>& settings, const char* source,
                    const Samples& samples) {
-  const auto check = [&](const std::vector<std::string>& own) {
-    std::vector<std::string> all = settings;
-    all.insert(all.end(), own.begin(), own.end());
-    check_member(path, {path}, source, all);
-  };
+  std::set<size_t> checked;  // rows
   for (size_t k = 0; k < samples.keys.size(); ++k) {
     // Admissible numbers form an interval, so that the least and the greatest stand for all.
-    std::map<double, std::string> numbers;
-    std::set<std::string> checked;
-    for (const std::vector<std::string>& row : samples.rows)
-      if (double value = 0.0; read_number(row[k], &value).empty())
-        numbers[value] = row[k];
+    std::map<double, size_t> numbers;
+    std::map<std::string, size_t> texts;
+    for (size_t i = 0; i < samples.rows.size(); ++i)
+      if (double value = 0.0; read_number(samples.rows[i][k], &value).empty())
+        numbers.emplace(value, i);
       else
-        checked.insert(row[k]);
+        texts.emplace(samples.rows[i][k], i);
     if (!numbers.empty()) checked.insert({numbers.begin()->second, numbers.rbegin()->second});
-    for (const std::string& value : checked) check({fmt::format("{}={}", samples.keys[k], value)});
+    for (const auto& [text, row] : texts) checked.insert(row);
   }
-  for (const SweepMember& first : members_of({samples.keys, {samples.rows.front()}}, ""))
-    check(first.settings);
+  const std::vector<SweepMember> members = members_of(samples, "");
+  for (const size_t row : checked) {
+    std::vector<std::string> all = settings;
+    all.insert(all.end(), members[row].settings.begin(), members[row].settings.end());
+    check_member(path, {path}, fmt::format("{}: member {}", source, members[row].name), all);
+  }
 }
 
 Case read_case(const std::string& path, const std::vector<std::string>& set_options) {
@@ -140,6 +157,12 @@ Case read_case(const std::string& path, const std::vector<std::string>& set_opti
     check_samples(path, {}, "sweep", read_samples(the_case.sample_file.file));
   if (the_case.ensemble) check_samples(path, {}, "ensemble", draw_samples(*the_case.ensemble));
   return the_case;
+}
+
+std::string hash_of_inputs(const std::string& path, const std::vector<std::string>& set_options) {
+  std::string hash;
+  read_one_case(path, set_options, &hash);
+  return hash;
 }
 
 SchemaTable case_schema_table() {

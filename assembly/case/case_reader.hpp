@@ -14,9 +14,13 @@ namespace cupola {
 /// checked like them.
 Case read_case(const std::string& path, const std::vector<std::string>& set_options = {});
 
-/// Checks the samples of the case as if each value were set: of numbers the least and the greatest of each
-/// key, every other text, and the first member whole, beside `settings`. `source` begins the message of the
-/// InputError.
+/// Hash of all keys as given, except `sweep` and `ensemble`, and of the contents of the files that they name:
+/// what one member depends on. The members are not checked.
+std::string hash_of_inputs(const std::string& path, const std::vector<std::string>& set_options = {});
+
+/// Checks members of the case, whole, because keys may depend on each other: those with the least and the
+/// greatest number of a key and one with every other text, beside `settings`. `source` begins the message of
+/// the InputError.
 void check_samples(const std::string& path, const std::vector<std::string>& settings, const char* source,
                    const Samples& samples);
 

@@ -19,6 +19,12 @@
 
 namespace cupola {
 
+/// A file that a key of the case names.
+struct NamedFile {
+  std::string key;   ///< its path, `supports.base_motion.file`
+  std::string path;  ///< to open
+};
+
 /// One map of the case file. A declaration function declares every key once, with unit, range and meaning.
 /// That one line reads the key, documents it in `--schema` and writes it to run.yaml:
 ///
@@ -146,8 +152,8 @@ class Section {
   /// after the declaration of the whole file: a missing key is reported only where nothing that is given is
   /// wrong.
   void finish() const;
-  /// From now on `files` receives the paths that file() reads.
-  void collect_files(std::vector<std::string>* files) { files_ = files; }
+  /// From now on `files` receives what file() reads, the files of a folder instead of the folder.
+  void collect_files(std::vector<NamedFile>* files) { files_ = files; }
   /// From now on `ranges` receives what expect() is given.
   void collect_expected(std::vector<PlausibleRange>* ranges) { expected_ = ranges; }
   /// A value of this section is expected in this range: outside of it the user gets a warning.
@@ -199,7 +205,7 @@ class Section {
   std::string path_;
   FileLocation where_;
   std::string case_file_;
-  std::vector<std::string>* files_ = nullptr;
+  std::vector<NamedFile>* files_ = nullptr;
   std::vector<PlausibleRange>* expected_ = nullptr;
   CaseNode effective_;
   std::vector<std::string> known_;

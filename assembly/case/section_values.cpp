@@ -24,6 +24,16 @@ CaseNode list_of_numbers(const double* values, size_t size) {
   return node;
 }
 
+/// The file, or those of the folder in the order of their names.
+std::vector<std::string> files_at(const std::string& path) {
+  if (!std::filesystem::is_directory(path)) return {path};
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(path))
+    if (entry.is_regular_file()) files.push_back(entry.path().string());
+  std::ranges::sort(files);
+  return files;
+}
+
 std::string format_list(const double* values, size_t size) {
   std::vector<std::string> texts;
   for (size_t i = 0; i < size; ++i) texts.push_back(format_number(values[i]));
@@ -62,7 +72,8 @@ void Section::file(const std::string& key, std::string& path, const std::string&
   path = path_inside(std::filesystem::path(from).parent_path().string(), from, name, node->where);
   if (!std::filesystem::is_regular_file(path) && !(or_folder && std::filesystem::is_directory(path)))
     fail(key, *node, "no such file in the folder of the case");
-  if (files_) files_->push_back(path);
+  if (files_)
+    for (const std::string& one : files_at(path)) files_->push_back({path_of(key), one});
   record(key, bundled ? kBundledPrefix + name : name, true);
 }
 

@@ -1,9 +1,11 @@
 #include "assembly/files/results_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numeric>
+#include <regex>
 
 #include <fmt/format.h>
 
@@ -183,6 +185,17 @@ void check_ties(const Frame& frame, const std::string& path) {
 }
 
 constexpr const char* kInterrupted = "interrupted.json";
+constexpr std::array kTables{"history.csv",         "ranges.csv",   "path.csv",
+                             "construction.csv",    "failures.csv", "mechanism_blocks.csv",
+                             "mechanism_joints.csv"};
+
+/// Removes what a run writes: readers and scripts would take what an earlier one left for part of this one.
+void remove_results(const std::string& folder) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    if (is_result_file(file.path().filename().string())) found.push_back(file.path());
+  for (const std::filesystem::path& path : found) std::filesystem::remove(path);
+}
 
 /// Path of a file of a frame that does not exist; "" if both do.
 std::string missing_file(const std::string& folder, int index) {
@@ -214,6 +227,12 @@ void check_frame_is_there(const std::string& folder, int index) {
 
 }  // namespace
 
+bool is_result_file(const std::string& name) {
+  static const std::regex kOfFrames(R"((contacts|blocks|ties)(_\d{4,}\.vtp|\.pvd))");
+  return std::ranges::count(kTables, name) > 0 || name == "summary.json" || name == kInterrupted ||
+         std::regex_match(name, kOfFrames);
+}
+
 ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times,
                              std::string case_hash)
     : folder_(std::move(folder)),
@@ -221,7 +240,11 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
       case_hash_(std::move(case_hash)),
       times_(std::move(times)) {
   make_folder(folder_);
-  const std::set<std::string> ties = times_.empty() ? std::set<std::string>{} : listed_ties(folder_);
+  if (times_.empty()) {
+    remove_results(folder_);
+    return;
+  }
+  const std::set<std::string> ties = listed_ties(folder_);
   for (int i = 0; i < static_cast<int>(times_.size()); ++i) {
     if (const std::string missing = missing_file(folder_, i); !missing.empty())
       throw InputError(
@@ -229,21 +252,16 @@ ResultsWriter::ResultsWriter(std::string folder, std::string assembly_hash, std:
           "was removed, so that the run cannot be resumed; remove the checkpoint to start again");
     if (has_ties(folder_, ties, i)) with_ties_.push_back(i);
   }
-  std::filesystem::remove(in_folder(folder_, kInterrupted));
-  if (times_.empty()) return;
-  // A run that is resumed at its end writes no table again. Hidden files are parts that a killed run left.
-  for (const auto& file : std::filesystem::directory_iterator(folder_))
-    if (const std::string name = file.path().filename(); name.ends_with(".csv") && !name.starts_with('.'))
-      text_files_[name] = hash_text(read_text(file.path()));
+  for (const char* name : {kInterrupted, "summary.json"}) std::filesystem::remove(in_folder(folder_, name));
+  // A run that is resumed at its end writes no table again.
+  for (const std::string name : kTables)
+    if (const std::string path = in_folder(folder_, name); std::filesystem::exists(path))
+      text_files_[name] = hash_text(read_text(path));
 }
 
 void ResultsWriter::write_frame(const Frame& frame) {
   const int index = static_cast<int>(times_.size());
-  // The summary and ties of an earlier run would not match the new frames.
-  if (index == 0) {
-    std::filesystem::remove(in_folder(folder_, "summary.json"));
-    std::filesystem::remove(in_folder(folder_, "ties.pvd"));
-  } else {
+  if (index > 0) {
     check_frame_is_there(folder_, index - 1);
     // Not all, so that the cost of a frame does not grow; two, so that the turn of each comes again.
     for (int turn = 0; turn < 2; ++turn) {
@@ -254,7 +272,7 @@ void ResultsWriter::write_frame(const Frame& frame) {
   const RunOfFrame run{assembly_hash_, case_hash_};
   write_mesh(in_folder(folder_, frame_file("contacts", index)), contacts_mesh(frame, run));
   write_mesh(in_folder(folder_, frame_file("blocks", index)), blocks_mesh(frame, run));
-  // A stage of construction may come before the first tie; an earlier run may have left its file.
+  // A stage of construction may come before the first tie; a run that was killed may have left its file.
   const std::string ties = in_folder(folder_, frame_file("ties", index));
   std::filesystem::remove(ties);
   if (frame.ties.size() > 0) {
@@ -281,6 +299,7 @@ void ResultsWriter::write_collections() {
 }
 
 void ResultsWriter::write_text(const std::string& name, const std::string& text) {
+  CUPOLA_ASSERT(name == "run.yaml" || is_result_file(name));  // or the next run would not remove it
   write_text_atomically(in_folder(folder_, name), text);
   text_files_[name] = hash_text(text);
 }

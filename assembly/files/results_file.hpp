@@ -22,15 +22,18 @@ class Growth {
   std::size_t written_ = 0;
 };
 
+/// True for what a run writes anew in its folder: summary.json, frames, their collections and tables.
+bool is_result_file(const std::string& name);
+
 /// Writes the frames of a results folder one by one: contacts_NNNN.vtp, blocks_NNNN.vtp, with ties
 /// ties_NNNN.vtp, and their .pvd collections. These, and tables that grow with the frames, are written again
 /// when they have grown by a hundredth and when the run ends or is interrupted, so that the cost of a run is
 /// proportional to its frames; what a killed run leaves lacks at most its last hundredth.
 class ResultsWriter {
  public:
-  /// Creates the folder. Every frame gets `assembly_hash` and, if given, `case_hash`, by which a reader knows
-  /// the frames of one run. `times` (s): frames that exist already when a run is resumed, as do its tables;
-  /// InputError if a frame is missing.
+  /// Creates the folder, or removes the results of an earlier run from it. Every frame gets `assembly_hash`
+  /// and, if given, `case_hash`, by which a reader knows the frames of one run. `times` (s): frames that exist
+  /// already when a run is resumed, as do its tables; InputError if a frame is missing.
   ResultsWriter(std::string folder, std::string assembly_hash, std::vector<double> times = {},
                 std::string case_hash = {});
   /// SystemError if the frame before was removed, or an earlier one whose turn it is.
@@ -42,7 +45,7 @@ class ResultsWriter {
   /// To be called last: a summary marks the folder as complete. It lists every text file with its hash.
   /// SystemError if a frame was removed.
   void write_summary(Summary summary);
-  /// Instead of a summary. The next run that starts in this folder removes it.
+  /// Instead of a summary.
   void write_interruption(const Interruption& interruption);
 
   const std::string& folder() const { return folder_; }

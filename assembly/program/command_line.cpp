@@ -1,7 +1,6 @@
 #include "assembly/program/command_line.hpp"
 
-#include <algorithm>
-#include <filesystem>
+#include <set>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -14,23 +13,6 @@
 
 namespace cupola {
 namespace {
-
-/// The files that a case reads; the files of a folder instead of the folder.
-std::vector<std::string> input_files(const Case& scene) {
-  namespace fs = std::filesystem;
-  std::vector<std::string> files;
-  for (const std::string& input : scene.inputs) {
-    if (!fs::is_directory(input)) {
-      files.push_back(input);
-      continue;
-    }
-    for (const auto& entry : fs::directory_iterator(input))
-      if (entry.is_regular_file()) files.push_back(entry.path().string());
-  }
-  std::ranges::sort(files);
-  files.erase(std::unique(files.begin(), files.end()), files.end());
-  return files;
-}
 
 /// The arguments with `--set` before each pair KEY=VALUE that follows another: `--set a=1 b=2` sets both.
 std::vector<const char*> with_set_before_each_pair(int argc, const char* const* argv) {
@@ -79,6 +61,9 @@ CommandLine::CommandLine(const std::string& name, const std::string& description
       ->allow_extra_args(false);
   app_->add_flag("--check", check_only_, "validate the input and stop");
   app_->add_flag("--inputs", list_inputs_, "print the files that the case reads, one per line, and stop");
+  app_->add_flag(
+      "--hash", hash_inputs_,
+      "print a hash of all keys but sweep and ensemble, and of the files that they name, and stop");
   app_->add_option("--schema", schema_key_,
                    "print every key of the case file, or those of one section: type, unit, range, default")
       ->type_name("[KEY]")
@@ -122,7 +107,12 @@ std::optional<ExitCode> CommandLine::parse(int argc, const char* const* argv) {
   if (case_path_.empty())
     throw InputError(fmt::format("CASE.yaml is missing; see {} --help", app_->get_name()));
   if (list_inputs_) {
-    for (const std::string& file : input_files(read_case())) fmt::print("{}\n", file);
+    const std::vector<std::string> inputs = read_case().inputs;
+    for (const std::string& file : std::set(inputs.begin(), inputs.end())) fmt::print("{}\n", file);
+    return ExitCode::done;
+  }
+  if (hash_inputs_) {
+    fmt::print("{}\n", hash_of_inputs(case_path_, set_options_));
     return ExitCode::done;
   }
   if (check_only_) return std::nullopt;

@@ -66,7 +66,7 @@ class CommandLine {
   std::vector<std::string> set_options_;
   std::vector<std::pair<std::string, std::string*>> required_;
   bool check_only_ = false;
-  bool list_inputs_ = false;
+  bool list_inputs_ = false, hash_inputs_ = false;
   bool strict_ = false;
   bool quiet_ = false;
   bool json_ = false;

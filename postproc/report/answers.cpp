@@ -115,7 +115,11 @@ std::string command_for_margins(const Evaluation& e) {
     return fmt::format("`analysis.staged.least: {}`", cohesion ? "cohesion" : "friction");
   }
   const std::filesystem::path file(e.scene.file.empty() ? "CASE.yaml" : e.scene.file);
-  return "cupola assess " + in_shell(file.filename().string());
+  const std::string name = in_shell(file.filename().string());
+  const bool member = !e.scene.sweep.empty() || !e.scene.sample_file.file.empty() || e.scene.ensemble;
+  // A case of many runs has no study of one; what extends it is one run.
+  return member ? fmt::format("cupola assess a case that extends {}, with the values of this member", name)
+                : "cupola assess " + name;
 }
 
 /// "load: the structure moves at every value; 3 groups ..." without the parameter and the mechanism.

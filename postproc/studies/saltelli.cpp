@@ -1,6 +1,9 @@
 #include "postproc/studies/saltelli.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 namespace cupola {
 namespace {
@@ -39,6 +42,20 @@ bool fits(const SaltelliDesign& design, const Samples& samples) {
   return differ;
 }
 
+/// False if A and B are no samples of the same inputs: an input that takes few values, and others in A than in
+/// B, is a column of a table of all combinations, which has the same members.
+bool same_inputs(const SaltelliDesign& design, const Samples& samples) {
+  for (size_t i = 0; i < design.a_b.size(); ++i) {
+    std::set<std::string> a, b;
+    for (const size_t row : design.a) a.insert(samples.rows[row][i]);
+    for (const size_t row : design.b) b.insert(samples.rows[row][i]);
+    const bool repeats = a.size() < design.a.size() || b.size() < design.b.size();
+    if (repeats && std::ranges::none_of(a, [&b](const std::string& value) { return b.contains(value); }))
+      return false;
+  }
+  return true;
+}
+
 IntervalEstimate share(const std::vector<double>& terms, double variance) {
   IntervalEstimate estimate = mean_of({terms, static_cast<int>(terms.size())});
   estimate.value /= variance;
@@ -59,7 +76,7 @@ std::optional<SaltelliDesign> saltelli_design(const Samples& samples) {
   if (rows % (inputs + 2) == 0 && rows / (inputs + 2) >= 2)
     candidates.push_back(in_blocks(inputs, rows / (inputs + 2)));
   for (const SaltelliDesign& design : candidates)
-    if (fits(design, samples)) return design;
+    if (fits(design, samples) && same_inputs(design, samples)) return design;
   return {};
 }
 

@@ -26,7 +26,7 @@ Table without_empty_columns(const Table& table) {
 }  // namespace
 
 StudyPage::StudyPage(std::string title, std::string folder)
-    : title_(std::move(title)), folder_(std::move(folder)) {
+    : title_(std::move(title)), folder_(std::move(folder)), written_(folder_) {
   make_folder(folder_);
   body_ = "<h1>" + html_text(title_) + "</h1>\n";
 }

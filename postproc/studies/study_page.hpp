@@ -6,13 +6,14 @@
 #include "postproc/figures/gnuplot.hpp"
 #include "postproc/studies/study_run.hpp"
 #include "postproc/tables/table.hpp"
+#include "postproc/tables/written_files.hpp"
 
 namespace cupola {
 
 /// The page of a study, study.html, written part by part; and the CSV files and figures beside it.
 class StudyPage {
  public:
-  /// Creates the folder.
+  /// Creates the folder, or removes what the page before wrote there.
   StudyPage(std::string title, std::string folder);
 
   void add(const std::string& html) { body_ += html; }
@@ -32,6 +33,7 @@ class StudyPage {
 
  private:
   std::string title_, folder_, body_;
+  WrittenFiles written_;
 };
 
 /// The table as text, each column as wide as its widest cell.

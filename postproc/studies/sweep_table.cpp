@@ -87,8 +87,8 @@ std::string progress(const std::string& runs_folder, const std::string& name) {
   const auto there = [&](const char* file) {
     return std::filesystem::exists(fmt::format("{}/{}/{}", runs_folder, name, file));
   };
-  if (there("results/checkpoint")) return "interrupted: repeat the command to resume";
   const std::string error = error_of_run(runs_folder, name);
+  if (error.empty() && there("results/checkpoint")) return "interrupted: repeat the command to resume";
   return fmt::format("{}: {}", there("assembly.vtu") ? "no results" : "no assembly",
                      error.empty() ? "see the output of the run" : error);
 }
@@ -137,8 +137,9 @@ std::string value_of(const StudyRun& member, const std::string& key) {
 
 /// The ranges of a finished member; none for other analyses.
 std::vector<ForceRange> ranges_of_member(const std::string& folder) {
-  const std::string path = folder + "/results/ranges.csv";
-  return std::filesystem::exists(path) ? read_ranges(read_csv(path)) : std::vector<ForceRange>();
+  RunFiles run(folder);
+  return run.has_results_table("ranges") ? read_ranges(run.table("results/ranges"))
+                                         : std::vector<ForceRange>();
 }
 
 }  // namespace

@@ -157,11 +157,20 @@ std::optional<double> RunFiles::number_if_any(const std::string& key) {
   }
 }
 
+bool RunFiles::has_results_table(const std::string& name) {
+  if (!std::filesystem::exists(folder_ + "/results/summary.json")) return false;
+  const UnorderedJson* files = descend(summaries_->results_of(folder_), "text_files");
+  return files && files->contains(name + ".csv");
+}
+
 const CsvFile& RunFiles::table(const std::string& name) {
   const auto found = tables_.find(name);
   if (found != tables_.end()) return found->second;
-  const std::string file = name.starts_with("results/") ? name : "post/" + name;
-  return tables_.emplace(name, read_csv(fmt::format("{}/{}.csv", folder_, file))).first->second;
+  const bool of_results = name.starts_with("results/");
+  const std::string path = fmt::format("{}/{}{}.csv", folder_, of_results ? "" : "post/", name);
+  if (of_results && !has_results_table(name.substr(name.find('/') + 1)))
+    throw InputError(FileLocation{path}, "is not listed in summary.json, so it does not belong to this run");
+  return tables_.emplace(name, read_csv(path)).first->second;
 }
 
 std::vector<std::string> RunFiles::table_names(const std::string& start) const {

@@ -29,7 +29,9 @@ class RunFiles {
   /// such number.
   double number(const std::string& key);
   std::optional<double> number_if_any(
-      const std::string& key);                    ///< the same; nothing if there is no such number
+      const std::string& key);  ///< the same; nothing if there is no such number
+  /// True if results/NAME.csv is of this run, and not of an earlier one: results/summary.json lists it.
+  bool has_results_table(const std::string& name);
   const CsvFile& table(const std::string& name);  ///< post/NAME.csv; for the name results/NAME that file
   /// Sorted names of the tables whose name begins with `start`.
   std::vector<std::string> table_names(const std::string& start) const;

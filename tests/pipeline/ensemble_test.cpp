@@ -24,8 +24,9 @@ ensemble:
 )";
 
 struct EnsembleFolder : ProgramFolder {
-  explicit EnsembleFolder(const std::string& keep = "summary") {
-    std::ofstream(file("incline.yaml")) << std::regex_replace(kIncline, std::regex("KEEP"), keep);
+  explicit EnsembleFolder(const std::string& kept = "summary") { keep(kept); }
+  void keep(const std::string& kept) const {
+    std::ofstream(file("incline.yaml")) << std::regex_replace(kIncline, std::regex("KEEP"), kept);
   }
   std::string table() const { return slurp(file("out/incline/incline.csv")); }
   /// The table without the column of processor times, and every summary without times.
@@ -129,6 +130,24 @@ TEST(Ensembles, KeepTablesOnRequest) {
   ASSERT_EQ(folder.run(kMake + "incline").code, 0);
   EXPECT_TRUE(std::filesystem::exists(folder.file("out/incline/0001/post/blocks.csv")));
   EXPECT_FALSE(std::filesystem::exists(folder.file("out/incline/0001/assembly.vtu")));
+}
+
+// Tables that were left out are computed again; those that are left out from now on go without a run.
+TEST(Ensembles, KeepWhatTheLastCallAsksFor) {
+  const EnsembleFolder folder;
+  const std::string table = folder.file("out/incline/0001/post/blocks.csv");
+  bool runs = true;
+  for (const char* keep : {"summary", "tables", "summary", "all"}) {
+    folder.keep(keep);
+    const ProgramRun run = folder.run(kMake + "incline");
+    ASSERT_EQ(run.code, 0) << run.err;
+    const bool less = keep == std::string("summary");
+    EXPECT_EQ(run.out.find("cupola-solve") != std::string::npos, runs) << keep;
+    EXPECT_EQ(std::filesystem::exists(table), !less) << keep;
+    EXPECT_EQ(std::filesystem::exists(folder.file("out/incline/0001/assembly.vtu")),
+              keep == std::string("all"));
+    runs = less;
+  }
 }
 
 // Three courses with a friction of their own on each bed: the wall slides on the weakest, at that

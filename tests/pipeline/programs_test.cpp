@@ -124,6 +124,21 @@ TEST(Programs, StateThatRigidForcesMayNotBeUnique) {
   EXPECT_NE(slurp(folder.file("post/report.html")).find("The forces may not be unique"), std::string::npos);
 }
 
+// A table that the case reads may have the name of one that the solver writes or removes.
+TEST(Programs, DoNotReplaceAFileOfTheCase) {
+  const ProgramFolder folder;
+  std::ofstream(folder.file("history.csv")) << "0, 0\n1, 1\n";
+  std::ofstream(folder.file("moved.yaml"))
+      << "extends: cupola:arch\nanalysis: {type: dynamic, duration: 0.1}\n"
+         "supports: {base_motion: {quantity: displacement, direction: [1, 0, 0], file: history.csv}}\n";
+  ASSERT_EQ(folder.run("cupola-generate moved.yaml --output assembly.vtu --quiet").code, 0);
+  const ProgramRun run = folder.run("cupola-solve moved.yaml --assembly assembly.vtu --output .");
+  EXPECT_EQ(run.code, 2) << run.out;
+  EXPECT_NE(run.err.find("history.csv: error: the run would replace this file"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(slurp(folder.file("history.csv")), "0, 0\n1, 1\n");
+}
+
 TEST(Programs, WriteTheSameBytesEveryTime) {
   const ProgramFolder first, second;
   solve_wall(first);

@@ -93,6 +93,42 @@ TEST(Rules, RunAllStagesOfMembersAfterAnEdit) {
   EXPECT_EQ(stages(folder.make("block")), "generate 0, solve 0, post analyse 0");
 }
 
+// A new value leaves the members that were there as they are.
+TEST(Rules, RunOnlyTheMembersThatAreMissing) {
+  const EditedFolder folder;
+  std::ofstream(folder.file("block.yaml")) << kIncline << kSweep;
+  ASSERT_EQ(folder.make("block").code, 0);
+  std::ofstream(folder.file("block.yaml"))
+      << kIncline << "sweep: [{key: joints.friction, values: [0.6, 0.7, 0.8]}] # one more\n";
+  EXPECT_EQ(stages(folder.make("block")), "generate 1, solve 1, post analyse 1");
+}
+
+// The name of a member over a component has brackets, in which make sees a pattern. That its checkpoint is
+// damaged is what its row says, because repeating the command does not help.
+TEST(Rules, ResumeMembersOverAComponent) {
+  const EditedFolder folder;
+  std::ofstream(folder.file("block.yaml")) << kIncline << "sweep: [{key: 'loads.gravity[0]', values: [4]}]\n";
+  ASSERT_EQ(folder.make("block").code, 0);
+  const std::string member = "out/block_gravity[0]4/";
+  for (const char* stamp : {".solved", ".drawn"}) std::filesystem::remove(folder.file(member + stamp));
+  std::ofstream(folder.file(member + "results/checkpoint")) << "damaged";
+  const ProgramRun again = folder.make("block");
+  EXPECT_NE(again.out.find(" --resume\n"), std::string::npos) << again.out;
+  EXPECT_NE(folder.rows("block").find("missing"), std::string::npos);
+  EXPECT_EQ(slurp(folder.file("out/block/sweep.csv")).find("interrupted"), std::string::npos);
+}
+
+TEST(Rules, RefuseWhatIsNoSlice) {
+  const EditedFolder folder;
+  std::ofstream(folder.file("block.yaml")) << kIncline << kSweep;
+  for (const std::string slice : {"3/2", "0/2", "-1/2", "1.5/2", "/20", "2", "a/b"}) {
+    const ProgramRun run = folder.make("block SLICE=" + slice);
+    EXPECT_EQ(run.code, 2) << slice;
+    EXPECT_NE(run.err.find("SLICE=" + slice + ": give which part"), std::string::npos) << run.err;
+  }
+  EXPECT_EQ(stages(folder.make("block SLICE=2/2")), "generate 1, solve 1, post analyse 1");
+}
+
 TEST(Rules, SayWhyASweepHasNoAssessment) {
   const EditedFolder folder;
   std::ofstream(folder.file("block.yaml")) << kIncline << kSweep;

@@ -1,5 +1,6 @@
 #include "assembly/case/case_reader.hpp"
 
+#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -239,6 +240,32 @@ TEST(ReadCase, HashDependsOnValuesAndNotOnSpelling) {
   EXPECT_EQ(plain.geometry_hash, other.geometry_hash);
   EXPECT_NE(plain.geometry_hash, read_case(path, {"geometry.surface.span=46"}).geometry_hash);
   EXPECT_NE(plain.geometry_hash, read_case(path, {"material.density=1800"}).geometry_hash);
+}
+
+// A run must not be resumed, and an assembly not used, after an edit of a file that the case names.
+TEST(ReadCase, HashesCoverTheContentsOfFiles) {
+  const ScratchFolder scratch;
+  const std::string moved = scratch.write(
+      "moved.yaml",
+      std::string(kWall) +
+          "supports: {base_motion: {quantity: acceleration, direction: [1, 0, 0], file: a.csv}}\n"
+          "analysis: {type: dynamic, duration: 1}\n");
+  scratch.write("a.csv", "0, 0\n1, 1\n");
+  const Case before = read_case(moved);
+  EXPECT_EQ(read_case(moved).hash, before.hash);
+  scratch.write("a.csv", "0, 0\n1, 2\n");
+  const Case after = read_case(moved);
+  EXPECT_NE(after.hash, before.hash);
+  EXPECT_EQ(after.geometry_hash, before.geometry_hash) << "the generator does not read it";
+
+  const std::string imported =
+      scratch.write("imported.yaml", "geometry: {import: {file: blocks}}\nmaterial: {density: 2000}\n");
+  scratch.write("blocks/a.obj", "o a\n");
+  const std::string one_file = read_case(imported).geometry_hash;
+  scratch.write("blocks/a.obj", "o b\n");
+  const std::string another = read_case(imported).geometry_hash;
+  scratch.write("blocks/b.obj", "o c\n");
+  EXPECT_EQ((std::set{one_file, another, read_case(imported).geometry_hash}.size()), 3u);
 }
 
 TEST(ReadCase, SetOptionsOverrideInOrderAndAcceptYaml) {

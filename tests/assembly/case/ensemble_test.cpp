@@ -163,5 +163,24 @@ TEST(Samples, OfAFileAreReadAndChecked) {
   EXPECT_EQ(member.inputs, std::vector<std::string>{wall}) << "a member depends on its own values only";
 }
 
+// Each row is a valid case, and 0.1 beside the `low` of the base case is not.
+TEST(Samples, AreCheckedAsWholeMembers) {
+  const ScratchFolder scratch;
+  const std::string wall = scratch.write(
+      "wall.yaml", std::string(kWall) +
+                       "analysis: {type: limit, limit: {parameter: friction, low: 0.15, high: 0.5}}\n"
+                       "sweep: {file: s.csv}\n");
+  const std::string keys = "analysis.limit.low,analysis.limit.high\n";
+  scratch.write("s.csv", keys + "0.01,0.1\n0.2,0.6\n");
+  EXPECT_NO_THROW(read_case(wall));
+  scratch.write("s.csv", keys + "0.01,0.1\n0.7,0.6\n");
+  try {
+    read_case(wall);
+    ADD_FAILURE() << "0.7 is above 0.6";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("sweep: member 0002: "), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace cupola::ensemble_test

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
+#include <set>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -326,25 +328,39 @@ TEST(ResultsFile, ErrorsNameInvalidTies) {
   EXPECT_NE(error_of("tie_nan", [](TieTable* t) { t->force[0] = std::nan(""); }), "");
 }
 
-TEST(ResultsFile, ANewRunRemovesTheOldSummary) {
-  const std::string folder = written_results("a");
-  ResultsWriter writer(folder, example_summary().assembly_hash);
-  EXPECT_EQ(open_error(folder, example_summary().assembly_hash), "");
+// Tables and frames of an earlier run would be taken for those of this one, which may write none.
+TEST(ResultsFile, ANewRunRemovesTheResultsOfTheLast) {
+  const std::string folder = test::fresh_folder("again"), hash = example_summary().assembly_hash;
+  const auto names = [&folder] {
+    std::set<std::string> found;
+    for (const auto& file : std::filesystem::directory_iterator(folder)) found.insert(file.path().filename());
+    return found;
+  };
+  {
+    ResultsWriter earlier(folder, hash);
+    for (const double time : {0.0, 0.5}) earlier.write_frame(two_block_frame(time));
+    earlier.write_text("failures.csv", "stage\n0\n");
+    earlier.write_summary(example_summary());
+  }
+  write_text_atomically(folder + "/notes.csv", "of the user\n");
+  ResultsWriter writer(folder, hash);
+  EXPECT_EQ(names(), std::set<std::string>{"notes.csv"});
   writer.write_frame(two_block_frame(0.0));
-  EXPECT_NE(open_error(folder, example_summary().assembly_hash).find("the run has not finished"),
-            std::string::npos);
+  ResultsWriter(folder, hash, {0.0}).write_summary(example_summary());  // that run was killed
+  EXPECT_EQ(ResultsReader(folder, hash).summary().text_files, (std::map<std::string, std::string>{}));
 }
 
 TEST(ResultsFile, FramesOfAnotherRunAreRefused) {
-  const std::string folder = test::fresh_folder("two_runs");
+  const std::string folder = test::fresh_folder("two_runs"), other = test::fresh_folder("other_run");
   Summary summary = example_summary();
-  for (const char* run : {"one", "two"}) {
-    ResultsWriter writer(folder, summary.assembly_hash, {}, run);
+  for (const std::string& run : {other, folder}) {
+    ResultsWriter writer(run, summary.assembly_hash, {}, summary.case_hash = run);
     writer.write_frame(two_block_frame(0.0));
-    if (run == std::string("one")) writer.write_frame(two_block_frame(0.5));
-    summary.case_hash = run;
+    writer.write_frame(two_block_frame(0.5));
     writer.write_summary(summary);
   }
+  std::filesystem::copy_file(other + "/contacts_0001.vtp", folder + "/contacts_0001.vtp",
+                             std::filesystem::copy_options::overwrite_existing);
   const ResultsReader reader(folder, summary.assembly_hash);
   EXPECT_NO_THROW(reader.read_frame(0));
   try {

@@ -208,6 +208,11 @@ TEST(FirstScreen, WithoutAMarginItNamesTheCommandThatComputesOne) {
   EXPECT_EQ(margin_answer(e).detail, "to compute it: cupola assess my_dome.yaml");
   e.scene.file = "O'Neill's dome.yaml";
   EXPECT_EQ(margin_answer(e).detail, "to compute it: cupola assess 'O'\\''Neill'\\''s dome.yaml'");
+  Evaluation member = e;
+  member.scene.file = "cases/domes.yaml";
+  member.scene.sweep = {{"joints.friction", {"0.3", "0.4"}}};
+  EXPECT_EQ(margin_answer(member).detail,
+            "to compute it: cupola assess a case that extends domes.yaml, with the values of this member");
   const std::vector<std::string> lines = terminal_lines(e, "post/report.html");
   ASSERT_EQ(lines.size(), 6u);
   EXPECT_TRUE(lines.front().starts_with("It stands: The joint forces carry the weight of 3 blocks, "))

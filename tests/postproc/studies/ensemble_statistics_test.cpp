@@ -211,5 +211,24 @@ TEST(EnsembleStatistics, TotalIndicesOfIshigamisFunction) {
   EXPECT_FALSE(saltelli_design(other)) << "one member is not where the design has it";
 }
 
+// Every fourth row of two weights by an even number of thicknesses is an A, of the first weight, and the last
+// of each four its B, of the second: no samples of the same inputs. A column of two texts drawn at random is.
+TEST(EnsembleStatistics, AllCombinationsAreNoSaltelliDesign) {
+  Samples all{{"weight", "thickness"}, {}};
+  for (const char* thickness : {"0.6", "0.7", "0.8", "0.9"})
+    for (const char* weight : {"1", "2"}) all.rows.push_back({weight, thickness});
+  EXPECT_FALSE(saltelli_design(all));
+  const Samples drawn{{"bond", "thickness"},
+                      {{"a", "0.6"},
+                       {"b", "0.6"},
+                       {"a", "0.7"},
+                       {"b", "0.7"},
+                       {"b", "0.8"},
+                       {"a", "0.8"},
+                       {"b", "0.9"},
+                       {"a", "0.9"}}};
+  EXPECT_TRUE(saltelli_design(drawn));
+}
+
 }  // namespace
 }  // namespace cupola::ensemble_statistics_test

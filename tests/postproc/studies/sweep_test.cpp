@@ -42,6 +42,23 @@ TEST(SweepTable, ReportsMissingMembersAndHowFarTheyGot) {
                 "cupola-generate: error: joints.friction = x: not a number\n");
   EXPECT_EQ(to_display(cell_of(sweep_table({"joints.friction"}, members, scratch.folder()), 3, "remark")),
             "no assembly: joints.friction = x: not a number");
+  scratch.write(members[2].name + "/errors.txt", "cupola-solve: checkpoint: error: is damaged: remove it\n");
+  EXPECT_EQ(to_display(cell_of(sweep_table({"joints.friction"}, members, scratch.folder()), 2, "remark")),
+            "no assembly: is damaged: remove it")
+      << "repeating the command does not help";
+}
+
+// Bands of an ensemble that kept its tables would stay beside the page of one that does not.
+TEST(StudyPage, RemovesWhatTheLastPageWrote) {
+  const ScratchFolder scratch;
+  const Table bands{"stat_bands", "", {{"x", "", ""}}, {{1.0}}};
+  for (const bool with_bands : {true, false}) {
+    StudyPage page("Domes", scratch.folder());
+    if (with_bands) page.add_table(bands);
+    page.write();
+    scratch.write("notes.csv", "of the user\n");
+    EXPECT_EQ(std::filesystem::exists(scratch.file("stat_bands.csv")), with_bands);
+  }
 }
 
 // "moving" of a motion in time is no verdict, unlike that of statics.

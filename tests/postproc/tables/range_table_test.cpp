@@ -104,9 +104,11 @@ TEST(RangeTable, SweepHasColumnsForEveryQuantityOfItsMembers) {
   std::vector<StudyRun> members;
   for (const SweepMember& member : members_of(sweep, "dome"))
     members.push_back({member.name, "dome", member.settings});
-  scratch.write("dome_friction0.2/results/summary.json", R"({"status": "stable"})");
-  scratch.write("dome_friction0.2/results/ranges.csv", kSolved);
+  scratch.write("dome_friction0.2/results/summary.json",
+                R"({"status": "stable", "text_files": {"ranges.csv": "0"}})");
   scratch.write("dome_friction0.3/results/summary.json", R"({"status": "moving"})");
+  for (const char* friction : {"0.2", "0.3"})  // the last is of an earlier run, which stood
+    scratch.write(std::string("dome_friction") + friction + "/results/ranges.csv", kSolved);
   const Table table = sweep_table({"joints.friction"}, members, scratch.folder());
   const size_t n = table.columns.size();
   EXPECT_EQ(table.columns[n - 3].key, "thrust_min_N");

@@ -1,4 +1,4 @@
-#include "postproc/written_files.hpp"
+#include "postproc/tables/written_files.hpp"
 
 #include <fstream>
 
