@@ -91,8 +91,8 @@ void declare_pull_rule(Section& s, const Case& the_case) {
          "analysis.limit.direction", "must be horizontal, at right angles to loads.gravity");
 }
 
-/// A thickness limit scales the blocks. Anchors elsewhere than in the middle would stay where the shell as built
-/// has them, and in a thinner one hang in the air.
+/// A thickness limit scales the blocks. Anchors elsewhere than in the middle would stay where the shell as
+/// built has them, and in a thinner one hang in the air.
 void declare_thickness_rule(Section& s, const Case& the_case) {
   if (the_case.analysis.type != AnalysisType::limit ||
       the_case.analysis.limit.parameter != LimitSearch::Parameter::thickness)

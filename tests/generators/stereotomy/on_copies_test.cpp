@@ -185,5 +185,54 @@ TEST(OnCopies, WhatHangsIsRefused) {
       << refusal_of(one);
 }
 
+Case case_of(std::vector<Member> members) {
+  Case c;
+  c.geometry.members = std::move(members);
+  c.geometry.has_shell = false;
+  return c;
+}
+
+/// A wall from x, 0.8 m long.
+Member wall_from(const std::string& name, double x) {
+  Member wall;
+  wall.name = name;
+  wall.at = Place{{x, 0.0, 0.0}, 0.0};
+  wall.surface = WallSurface{.length = 0.8, .height = 3.0, .thickness = 0.6};
+  wall.bond = StackBond{4, 1, 1, {}};
+  return wall;
+}
+
+// Each message names a cure, which works.
+TEST(OnCopies, ErrorsOfMembersOnTwoBearersNameACure) {
+  Member left = wall_from("left", -1.6), lintel = wall_from("lintel", 0.0);
+  lintel.on = "left";
+  lintel.at.reset();
+  std::get<WallSurface>(lintel.surface).length = 3.2;
+  left.mirror = Mirror{};
+  EXPECT_NE(refusal_of(case_of({left, lintel})).find("list the others as a member after it"),
+            std::string::npos);
+  left.mirror.reset();
+  ModelReport report;
+  check_and_report(case_of({left, lintel, wall_from("right", 0.8)}), &report);
+  EXPECT_EQ(report.islands, 1);
+
+  VaultSurface horseshoe;
+  horseshoe.plan = {.kind = Plan::Kind::line, .length = 0.6};
+  horseshoe.profile = {.kind = Profile::Kind::horseshoe, .span = 2.0, .below_deg = 25.0};
+  horseshoe.thickness = 0.3;
+  horseshoe.beds = VaultSurface::Beds::given;
+  horseshoe.bed_angles_deg = {0.0, 90.0};
+  Member arch;
+  arch.name = "arch";
+  arch.on = "left";
+  arch.surface = horseshoe;
+  arch.bond = StackBond{11, 1, 1, {}};
+  left.mirror = Mirror{};
+  EXPECT_NE(refusal_of(case_of({left, arch})).find("here {origin: [0, 0, 0]}"), std::string::npos);
+  arch.at = Place{};
+  check_and_report(case_of({left, arch}), &report);
+  EXPECT_EQ(report.islands, 1);
+}
+
 }  // namespace
 }  // namespace cupola::on_copies_test

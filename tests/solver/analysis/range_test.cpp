@@ -273,48 +273,6 @@ TEST(Range, OutwardOfAWallIsThatOfItsBarrel) {
   EXPECT_THROW(ranges_of(scene, box), InputError);
 }
 
-TEST(Range, RatiosToNothingAreUndefined) {
-  Case scene = range_case(
-      0.5, {joint(0, 1, JointForce::Component::normal), joint(0, 1, JointForce::Component::eccentricity)});
-  scene.loads.gravity.setZero();
-  const Summary summary = ranges_of(scene, testing::box_on_floor({1, 1, 1}));
-  EXPECT_EQ(summary.status, Status::stable) << summary.message;
-  ASSERT_EQ(summary.ranges.size(), 2u);
-  EXPECT_EQ(summary.ranges[0].max.outcome, RangeOutcome::bounded);
-  EXPECT_EQ(summary.ranges[1].min.outcome, RangeOutcome::undefined);
-  EXPECT_EQ(summary.ranges[1].max.outcome, RangeOutcome::undefined);
-}
-
-// Of a block that hangs from its tensile strength and is pulled sideways the normal force is -W everywhere:
-// M / -W.
-TEST(Range, AJointThatPullsHasAnEccentricity) {
-  const Assembly hung =
-      testing::make_boxes({{.center = {0, 0, 0.5}, .fixed = true}, {.center = {0, 0, -0.5}}});
-  const double weight = weight_of(hung), push = 0.1 * weight;
-  Case scene = range_case(0.5, {joint(0, 1, JointForce::Component::eccentricity)});
-  scene.joints.compliance.per = Compliance::Per::area;
-  scene.joints.strength = {.tension = 3.0 * weight, .cohesion = 3.0 * weight};
-  scene.loads.forces = {BlockForce{.block = 1, .point = {}, .force = Vec3(push, 0.0, 0.0), .time = {}}};
-  expect_ends(range_of(scene, hung), -0.5 * push / weight, -0.5 * push / weight, 1.0);
-}
-
-// A block on a bed with tension, held both ways from above: its normal force passes from pull to push, at the
-// same moment.
-TEST(Range, ARatioIsUnboundedWhereItsDenominatorChangesItsSign) {
-  const Assembly box = testing::box_on_floor({1, 1, 1});
-  const double weight = weight_of(box);
-  Case scene = range_case(0.5, {joint(0, 1, JointForce::Component::eccentricity)});
-  scene.joints.compliance.per = Compliance::Per::area;
-  scene.joints.strength = {.tension = weight, .cohesion = weight, .compression = 4.0 * weight};
-  scene.supports.restraints = {{BlockRef{1}, Vec3(0, 0, 1), Vec3::UnitZ()}};
-  scene.loads.forces = {
-      BlockForce{.block = 1, .point = {}, .force = Vec3(0.1 * weight, 0.0, 0.0), .time = {}}};
-  const Summary summary = ranges_of(scene, box);
-  EXPECT_EQ(summary.status, Status::stable) << summary.message;
-  EXPECT_EQ(summary.ranges.at(0).min.outcome, RangeOutcome::unbounded) << summary.message;
-  EXPECT_EQ(summary.ranges.at(0).max.outcome, RangeOutcome::unbounded) << summary.message;
-}
-
 TEST(Range, WithoutAdmissibleState) {
   Case scene = range_case(0.2, {joint(0, 1, JointForce::Component::normal)});
   scene.loads.gravity = testing::tilted_gravity(0.5);
