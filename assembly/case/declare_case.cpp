@@ -99,7 +99,7 @@ void declare_thickness_rule(Section& s, const Case& the_case) {
     return;
   s.rule(std::ranges::all_of(the_case.geometry.chains, [](const Chain& chain) { return chain.place == 0.5; }),
          "analysis.limit.parameter",
-         "thickness: requires chains and rods with place: 0.5, in the middle of the thickness, where their "
+         "requires chains and rods with place: 0.5, in the middle of the thickness, where their "
          "anchors stay; or compare runs with other thicknesses of the member instead, by --set");
 }
 

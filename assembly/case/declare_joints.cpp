@@ -145,9 +145,10 @@ void declare_failure_rules(Section& s, const Joints& joints) {
                           [](const auto& kind) { return kind.second->fracture_energy.has_value(); }) ||
       std::ranges::any_of(joints.rings,
                           [](const RingJoints& group) { return group.law.fracture_energy.has_value(); });
-  // A case that says `plastic` may keep them, as one that is assessed does.
+  // Limits require plastic joints, also of a case that extends one whose joints soften.
   const bool says_plastic = joints.failure == JointFailure::plastic && s.gives("failure");
-  s.rule(softens || says_plastic || !energies, "fracture_energy", "requires joints.failure: softening");
+  s.rule(softens || says_plastic || !energies, "fracture_energy",
+         "requires joints.failure: softening, or that it is given as plastic");
   s.rule(!softens || joints.fracture_energy, "failure",
          "softening requires fracture_energy: {tension: N/m, shear: N/m}");
   s.rule(joints.failure == JointFailure::plastic || joints.have_strength(), "failure",

@@ -200,6 +200,15 @@ const BadCase kBadCases[] = {
      kGood + "postproc: {meridians: [{name: \"a\\nsystem('touch x')\", azimuth_deg: 0}]}\n",
      "bad.yaml:6:31: error: postproc.meridians[0].name = \"a?system('touch x')\": may contain only letters, "
      "digits, _ and -"},
+    {"AnchorsOfAThickness",
+     "geometry: {surface: {type: dome}, bond: {type: running}, chains: [{name: a, type: polygon, height: 7, "
+     "place: 0.25, links: 8, axial_stiffness: 1e8}]}\n"
+     "analysis: {type: limit, limit: {parameter: thickness, low: 0.5, high: 1}}\n",
+     "bad.yaml:2:33: error: analysis.limit.parameter = thickness: requires chains and rods with place: 0.5"},
+    {"EnergiesOfJointsThatYield", kGood + "  tension: 1e5\n  fracture_energy: {tension: 10, shear: 10}\n",
+     "bad.yaml:7:3: error: joints.fracture_energy: requires joints.failure: softening, or that it is given "
+     "as "
+     "plastic"},
     {"NotAMap", "- a\n- b\n", "bad.yaml:1:1: error: a case file is a map of sections, `key: value`"},
     {"Empty", "", "bad.yaml: error: is empty"},
     {"OnlyComment", "# nothing\n", "bad.yaml: error: is empty"},
@@ -227,6 +236,14 @@ const BadCase kBadCases[] = {
 
 INSTANTIATE_TEST_SUITE_P(CaseReader, BadCaseFile, ::testing::ValuesIn(kBadCases),
                          [](const auto& bad) { return bad.param.name; });
+
+// As in a run whose limit is sought, of joints that soften in others.
+TEST(FractureEnergy, IsKeptWhereJointsAreSaidToYield) {
+  EXPECT_EQ(message_for(kGood + "  tension: 1e5\n  failure: softening\n"
+                                "  fracture_energy: {tension: 10, shear: 10}\n",
+                        {"joints.failure=plastic"}),
+            "no error");
+}
 
 TEST(SetOption, ErrorsStartWithTheOption) {
   EXPECT_EQ(message_for(kGood, {"joints.friction=-1"}),
