@@ -176,7 +176,10 @@ TEST(Members, HaveCopies) {
   // The name of a member means its copies, too; that of a copy means it alone.
   const auto loaded = [&](const std::string& member, FaceKind kind) {
     Loads loads;
-    loads.faces = {{.faces = kind, .member = member, .traction = Vec3(0.0, 0.0, -1e3)}};
+    FaceLoad& load = loads.faces.emplace_back();
+    load.faces = kind;
+    load.member = member;
+    load.traction = Vec3(0.0, 0.0, -1e3);
     double sum = 0.0;
     for (const PointForce& force : applied_loads(loads, assembly)) sum -= force.force.z();
     return sum;

@@ -217,8 +217,11 @@ TEST(OnCopies, ErrorsOfMembersOnTwoBearersNameACure) {
   EXPECT_EQ(report.islands, 1);
 
   VaultSurface horseshoe;
-  horseshoe.plan = {.kind = Plan::Kind::line, .length = 0.6};
-  horseshoe.profile = {.kind = Profile::Kind::horseshoe, .span = 2.0, .below_deg = 25.0};
+  horseshoe.plan.kind = Plan::Kind::line;
+  horseshoe.plan.length = 0.6;
+  horseshoe.profile.kind = Profile::Kind::horseshoe;
+  horseshoe.profile.span = 2.0;
+  horseshoe.profile.below_deg = 25.0;
   horseshoe.thickness = 0.3;
   horseshoe.beds = VaultSurface::Beds::given;
   horseshoe.bed_angles_deg = {0.0, 90.0};

@@ -21,7 +21,7 @@ Case range_case(std::vector<ForceQuantity> quantities) {
 }
 
 TEST(RatioRange, RatiosToNothingAreUndefined) {
-  Case scene = range_case({{0, 1, JointForce::Component::normal, Vec3::UnitX()}, kEccentricity});
+  Case scene = range_case({JointForce{0, 1, JointForce::Component::normal, Vec3::UnitX()}, kEccentricity});
   scene.loads.gravity.setZero();
   const Summary summary = run_range(scene, testing::box_on_floor({1, 1, 1}), {}).value();
   EXPECT_EQ(summary.status, Status::stable) << summary.message;
