@@ -67,10 +67,12 @@ void overlay(CaseNode* base, const CaseNode& over, const std::string& path = "")
     }
     const auto present = std::find_if(base->entries.begin(), base->entries.end(),
                                       [&](const CaseNode::Entry& e) { return e.key == entry.key; });
-    if (present == base->entries.end())
+    if (present == base->entries.end()) {
       base->entries.push_back(entry);
-    else
-      overlay(&present->value, entry.value, entry_path);
+      continue;
+    }
+    if (present->value.of_other_type) present->where = entry.where;  // the new type may not have it
+    overlay(&present->value, entry.value, entry_path);
   }
 }
 

@@ -204,9 +204,11 @@ const BadCase kBadCases[] = {
      "geometry: {surface: {type: dome}, bond: {type: running}, chains: [{name: a, type: polygon, height: 7, "
      "place: 0.25, links: 8, axial_stiffness: 1e8}]}\n"
      "analysis: {type: limit, limit: {parameter: thickness, low: 0.5, high: 1}}\n",
-     "bad.yaml:2:33: error: analysis.limit.parameter = thickness: requires chains and rods with place: 0.5"},
-    {"EnergiesOfJointsThatYield", kGood + "  tension: 1e5\n  fracture_energy: {tension: 10, shear: 10}\n",
-     "bad.yaml:7:3: error: joints.fracture_energy: requires joints.failure: softening, or that it is given "
+     "bad.yaml:2:44: error: analysis.limit.parameter: requires chains and rods with place: 0.5"},
+    {"EnergiesOfJointsThatYield",
+     kDome + "joints: {compliance: {per: area}, tension: 1e5, fracture_energy: {tension: 10, shear: 10}}\n",
+     "bad.yaml:2:66: error: joints.fracture_energy = {...}: requires joints.failure: softening, or that it "
+     "is given "
      "as "
      "plastic"},
     {"NotAMap", "- a\n- b\n", "bad.yaml:1:1: error: a case file is a map of sections, `key: value`"},
@@ -239,8 +241,8 @@ INSTANTIATE_TEST_SUITE_P(CaseReader, BadCaseFile, ::testing::ValuesIn(kBadCases)
 
 // As in a run whose limit is sought, of joints that soften in others.
 TEST(FractureEnergy, IsKeptWhereJointsAreSaidToYield) {
-  EXPECT_EQ(message_for(kGood + "  tension: 1e5\n  failure: softening\n"
-                                "  fracture_energy: {tension: 10, shear: 10}\n",
+  EXPECT_EQ(message_for(kDome + "joints: {compliance: {per: area}, tension: 1e5, failure: softening, "
+                                "fracture_energy: {tension: 10, shear: 10}}\n",
                         {"joints.failure=plastic"}),
             "no error");
 }
