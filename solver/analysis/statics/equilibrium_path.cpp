@@ -6,14 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/files/byte_archive.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/statics/hung_blocks.hpp"
 #include "solver/analysis/statics/kept_dilatancy.hpp"
 #include "solver/analysis/statics/static_step.hpp"
-#include "solver/conic/motion_proof.hpp"
 #include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
@@ -31,65 +29,6 @@ EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& det
                                  const StaticOptions& options, PathGeometry geometry)
     : model_(model), options_(options), geometry_(geometry), detector_(*model.assembly, detection) {
   loaded_.state = state_at_rest(model_);
-}
-
-namespace {
-
-/// True if no forces balance the loads whichever cracks bear or pull. `motion` (6 nb), if not empty, is tried
-/// as a proof first.
-bool moves_with_bonded_joints(const Model& model, const State& start, const ContactSet& contacts,
-                              const ContactMemories& bonded, const StaticOptions& options,
-                              const VecX& motion = {}) {
-  const ContactProblem problem = first_static_problem(model, start, contacts, bonded, options).problem;
-  MotionProof proof(problem, problem.h * applied_forces(model, start, start.time + options.time_advance));
-  return (motion.size() > 0 && proof.next_to(motion)) || proof.search() == MotionProof::Answer::moves;
-}
-
-/// True if cracks that the motion closes or opens may stop it: they then bear or pull in `memories`. It is
-/// proven only if it also moves with all of them bonded.
-bool may_be_stopped(const Model& model, const State& start, const ContactSet& contacts,
-                    const StaticOptions& options, ContactMemories* memories, StaticSolution* motion) {
-  ContactMemories bonded = *memories;
-  if (!let_joints_bear_and_pull(&bonded) ||
-      moves_with_bonded_joints(model, start, contacts, bonded, options, motion->increment))
-    return false;
-  if (follow_motion(motion->step, motion->step_solution, motion->h, memories)) return true;
-  if (motion->proven)
-    motion->message = "blocks move, without proof: cracks that carry nothing would resist if they closed";
-  motion->proven = false;
-  return false;
-}
-
-}  // namespace
-
-StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
-                              const StaticOptions& options, ContactMemories* memories, int* solves) {
-  constexpr int kMostSolves = 200;  // a joint that breaks brittly breaks its neighbours one after the other
-  if (model.joints.has_strength()) begin_step(contacts, memories);
-  StaticSolution solution;
-  StaticOptions found = options;
-  int iterations = 0;
-  bool again = true;
-  for (*solves = 0; again && *solves < kMostSolves; ++*solves) {
-    solution = solve_static(model, start, contacts, *memories, found);
-    found.time_advance = solution.time_advance;
-    iterations += solution.iterations;
-    if (found.nearby && solution.outcome == StaticOutcome::equilibrium)
-      found.nearby = NearbyStart{.displacement = solution.h * solution.step_solution.v};
-    again = model.joints.has_strength() &&
-            (solution.outcome == StaticOutcome::equilibrium
-                 ? refine_step(model, start, contacts, solution.step, solution.step_solution,
-                               static_step_options(found, solution.h), memories)
-                 : solution.outcome == StaticOutcome::moving &&
-                       may_be_stopped(model, start, contacts, found, memories, &solution));
-  }
-  solution.iterations = iterations;
-  if (again) {
-    solution.outcome = StaticOutcome::unconverged;
-    solution.message =
-        fmt::format("what the joints bear still changed after {} of one step", counted(*solves, "solve"));
-  }
-  return solution;
 }
 
 StaticSolution EquilibriumPath::advance(double value) {

@@ -1,13 +1,9 @@
 #pragma once
 
+#include "solver/analysis/statics/breaking_solve.hpp"
 #include "solver/analysis/statics/limit_search.hpp"
 
 namespace cupola {
-
-/// A static solve from `start`, repeated where joints with strength break until their damage is right
-/// (joint_damage.hpp). `memories` has that damage. Sets the number of solves.
-StaticSolution solve_breaking(const Model& model, const State& start, const ContactSet& contacts,
-                              const StaticOptions& options, ContactMemories* memories, int* solves);
 
 /// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects
 /// the contacts anew and is a static solve from the last equilibrium; joints keep their slip, opening and
