@@ -8,22 +8,20 @@
 
 #include "assembly/base/error.hpp"
 #include "assembly/files/byte_archive.hpp"
+#include "assembly/model/block_names.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "solver/analysis/statics/hung_blocks.hpp"
 #include "solver/analysis/statics/kept_dilatancy.hpp"
-#include "solver/analysis/statics/static_step.hpp"
+#include "solver/analysis/statics/met_in_step.hpp"
 #include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
 
 namespace cupola {
-namespace {
 
 double displacement_of(const StaticSolution& solution) {
   return largest_speed(solution.step_solution.v) * solution.h;
 }
-
-}  // namespace
 
 EquilibriumPath::EquilibriumPath(const Model& model, const DetectionOptions& detection,
                                  const StaticOptions& options, PathGeometry geometry)
@@ -41,29 +39,12 @@ StaticSolution EquilibriumPath::advance_by(const LengthControl& control) {
   return advance_from(loaded_.state.time);
 }
 
-/// What a solve that balances the loads but for its residual leaves undetermined of the displacement, m. A
-/// start nearby has longer steps, in which joints limit the displacement, not the inertia of a step.
-double EquilibriumPath::displacement_by_imbalance(const StaticSolution& solution) const {
-  constexpr double kMargin = 3.0;  // the residual is over the mean weight, in forces and in moments
-  const double acceleration = reference_acceleration(model_, start_);
-  const double h = std::min(solution.h, first_static_step(model_, start_, contacts_, acceleration, options_));
-  return kMargin * solution.balance.residual * acceleration * h * h;
-}
-
-bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
-  constexpr double kSettled = 1e-8, kNegligible = 1e-5;  // of the smallest block
-  const double moved = displacement_of(solution) / smallest_block_size(*model_.assembly);
-  return moved <= kSettled ||
-         (moved <= kNegligible && displacement_of(solution) <= displacement_by_imbalance(solution));
-}
-
 /// The scene of the next static solve: contacts at `from` and what the joints remember.
-void EquilibriumPath::prepare(const LoadedState& from, double time_advance) {
+void EquilibriumPath::prepare(const LoadedState& from, double time_advance, const std::vector<double>& way) {
   start_ = from.state;
   const auto detect = [&] {
-    contacts_ = detector_.num_detections() == 0
-                    ? contacts_at_rest(model_, &detector_)
-                    : detector_.update(start_.poses, opened_by_sliding(from.memories, start_.poses.size()));
+    contacts_ = detector_.num_detections() == 0 ? contacts_at_rest(model_, &detector_)
+                                                : detector_.update(start_.poses, reach(from.memories, way));
     memories_ = match_memories(from.memories, contacts_.points, start_.poses);
     if (!model_.heat.empty()) contacts_ = model_.heat.heated(std::move(contacts_), start_.poses, start_.time);
   };
@@ -108,17 +89,56 @@ bool EquilibriumPath::surely_moves_at(double value) {
   return moves_with_bonded_joints(model_, start_, contacts_, memories_, options_);
 }
 
+/// m, by which the reach of the detector exceeds its margin (num_blocks; empty: zero): what sliding has
+/// opened, and the way of the blocks in the step.
+std::vector<double> EquilibriumPath::reach(const ContactMemories& memories,
+                                           const std::vector<double>& way) const {
+  std::vector<double> reach = opened_by_sliding(memories, start_.poses.size());
+  if (reach.empty() || way.empty()) return reach.empty() ? way : reach;
+  for (size_t b = 0; b < reach.size(); ++b) reach[b] += way[b];
+  return reach;
+}
+
+/// Blocks that the last solve did not know to meet, and that overlap at its end.
+std::vector<MetBlocks> EquilibriumPath::met_at(const LoadedState& end, const std::vector<double>& way) {
+  if (std::ranges::max(way) <= 0.5 * detector_.narrow_phase().min_width) return {};
+  detector_.update(end.state.poses, reach(end.memories));
+  return met_unseen(detector_, contacts_, start_.poses, end.state.poses);
+}
+
 StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_advance) {
-  prepare(from, time_advance);
-  int solves = 0;
-  StaticSolution solution = solve_breaking(model_, start_, contacts_, options_, &memories_, &solves);
-  solves_ += solves;
-  options_.time_advance = solution.time_advance;
-  if (solution.outcome != StaticOutcome::equilibrium) return solution;
-  loaded_ = loaded_state(model_, start_, contacts_, memories_, solution, options_);
-  keep_dilatancy(solution, options_.solve.law, &loaded_.memories);
-  dissipated_ += joint_dissipation(solution.step, solution.step_solution);
-  return solution;
+  constexpr int kMostPasses = 20;  // what is pushed meets others in turn
+  std::vector<double> sought;      // m, by which blocks that met others unseen have moved (num_blocks)
+  for (int pass = 1;; ++pass) {
+    prepare(from, time_advance, sought);
+    int solves = 0;
+    StaticSolution solution = solve_breaking(model_, start_, contacts_, options_, &memories_, &solves);
+    solves_ += solves;
+    options_.time_advance = solution.time_advance;
+    if (solution.outcome != StaticOutcome::equilibrium) return solution;
+    LoadedState end = loaded_state(model_, start_, contacts_, memories_, solution, options_);
+    keep_dilatancy(solution, options_.solve.law, &end.memories);
+    const std::vector<double> way = ways(detector_.model(), start_.poses, end.state.poses);
+    const std::vector<MetBlocks> met = met_at(end, way);
+    bool again = false;
+    sought.resize(way.size(), 0.0);
+    for (const MetBlocks& pair : met)
+      for (const int b : {pair.a, pair.b}) {
+        again = again || way[b] > sought[b];
+        sought[b] = std::max(sought[b], way[b]);
+      }
+    if (again && pass < kMostPasses) continue;
+    if (!met.empty()) {
+      solution.outcome = StaticOutcome::unconverged;
+      solution.message =
+          fmt::format("block {} runs into block {} from aside; take shorter steps",
+                      block_label(*model_.assembly, met[0].a), block_label(*model_.assembly, met[0].b));
+      return solution;
+    }
+    loaded_ = std::move(end);
+    dissipated_ += joint_dissipation(solution.step, solution.step_solution);
+    return solution;
+  }
 }
 
 namespace {
@@ -141,56 +161,26 @@ NearbyStart EquilibriumPath::next_start(double step) const {
 StaticSolution EquilibriumPath::advance_from(double guess) {
   const LoadedState last = loaded_;
   const double length = options_.control ? options_.control->displacement : guess - last.state.time;
-  const auto step = [&] {
-    dissipated_ = 0.0;
-    if (options_.control) options_.control->displacement = length;
-    options_.nearby.reset();
-    if (last_displacement_.size() > 0) options_.nearby = next_start(length);
-    return solve_from(last, guess - last.state.time);
-  };
+  dissipated_ = 0.0;
   solves_ = 0;
-  StaticSolution solution = step();
+  options_.nearby.reset();
+  if (last_displacement_.size() > 0) options_.nearby = next_start(length);
+  StaticSolution solution = solve_from(last, guess - last.state.time);
+  const auto stands = [&] { return solution.outcome == StaticOutcome::equilibrium; };
   const VecX displacement = solution.h * solution.step_solution.v;
-  const bool at_end = geometry_ == PathGeometry::end;
+  if (stands()) refuse_if_far(last, &solution);
   // A step in which joints soften has the mean of their strength, one that repeats it the last.
   const bool softens = options_.control && model_.joints.has_strength();
   const double long_step = options_.control ? kLongStepOfControl : kLongStep;
-  const bool far = !softens && displacement_of(solution) > long_step * smallest_block_size(*model_.assembly);
-  if (solution.outcome == StaticOutcome::equilibrium && (at_end || far)) {
-    solution = correct(std::move(solution));
-    if (!at_end && !options_.control && solution.outcome != StaticOutcome::equilibrium && !solution.proven)
-      solution = step();
-  }
-  if (solution.outcome == StaticOutcome::equilibrium) {
+  const bool is_long =
+      !softens && displacement_of(solution) > long_step * smallest_block_size(*model_.assembly);
+  if (stands() && (geometry_ == PathGeometry::end || is_long)) solution = correct(std::move(solution));
+  if (stands()) {
     // Blocks that rest as drawn say nothing of the next step.
     if (last_displacement_.size() > 0 || !displacement.isZero(0.0)) last_displacement_ = displacement;
     last_step_ = length;
   } else {
     loaded_ = last;
-  }
-  return solution;
-}
-
-StaticSolution EquilibriumPath::correct(StaticSolution solution) {
-  constexpr int kMost = 200;  // of a slender tower that sways each takes away a tenth
-  const double by_step = std::max(displacement_of(solution), imposed_displacement(model_, start_, options_));
-  for (int pass = 0; !is_settled(solution); ++pass) {
-    const double further = displacement_of(solution);
-    if (pass == kMost || (pass > 0 && further > std::max(by_step, displacement_by_imbalance(solution)))) {
-      solution.outcome = pass == kMost ? StaticOutcome::unconverged : StaticOutcome::moving;
-      solution.proven = false;
-      solution.message =
-          fmt::format("in the geometry at the end of the step blocks move on by {:.2g} m", further);
-      break;
-    }
-    const int iterations = solution.iterations;
-    options_.nearby = NearbyStart{};
-    if (options_.control) options_.control->displacement = 0.0;  // it stays where the step has led
-    solution = solve_from(LoadedState(loaded_), 0.0);
-    solution.iterations += iterations;
-    if (solution.outcome == StaticOutcome::equilibrium) continue;
-    solution.message = "in the geometry at the end of the step: " + solution.message;
-    break;
   }
   return solution;
 }

@@ -2,21 +2,28 @@
 
 #include "solver/analysis/statics/breaking_solve.hpp"
 #include "solver/analysis/statics/limit_search.hpp"
+#include "solver/analysis/statics/met_in_step.hpp"
 
 namespace cupola {
+
+/// m, largest of a block.
+double displacement_of(const StaticSolution& solution);
 
 /// Sequence of equilibria of a structure whose loads and supports change slowly in time. Each step detects
 /// the contacts anew and is a static solve from the last equilibrium; joints keep their slip, opening and
 /// damage.
 ///
 /// Each solve balances the forces in the geometry in which it starts, so that an equilibrium is off by the
-/// displacement of its step; what hangs on ties hangs at rest there (hung_blocks.hpp). With
-/// PathGeometry::end, and in steps by time that move a block by more than a hundredth of the smallest, more
-/// solves follow, each from where the last one ended and at the same time, until one moves no block by more
-/// than 1e-8 of the smallest, or 1e-5 where the imbalance that a solve leaves explains it: forces and
+/// displacement of its step; what hangs on ties hangs at rest there (hung_blocks.hpp). If blocks overlap at
+/// its end that were too far apart at its start to make contacts, it is repeated with these
+/// (met_in_step.hpp). A step has no equilibrium, and the path must take shorter ones, if blocks may have
+/// passed each other, or if one by time moves a block by more than the size of the smallest.
+///
+/// With PathGeometry::end, and in steps by time that move a block by more than a hundredth of the smallest,
+/// more solves follow, each from where the last one ended and at the same time, until one moves no block by
+/// more than 1e-8 of the smallest, or 1e-5 where the imbalance that a solve leaves explains it: forces and
 /// geometry then belong to each other. Where these solves move the blocks further than the step itself moved
-/// blocks and supports, the structure may fall. With PathGeometry::start a long step that does not settle
-/// stays as it was, unless a motion is proven.
+/// blocks and supports, the structure may fall: the step has no equilibrium.
 class EquilibriumPath {
  public:
   EquilibriumPath(const Model& model, const DetectionOptions& detection, const StaticOptions& options,
@@ -50,10 +57,14 @@ class EquilibriumPath {
 
  private:
   StaticSolution advance_from(double guess);
-  void prepare(const LoadedState& from, double time_advance);
+  void prepare(const LoadedState& from, double time_advance, const std::vector<double>& way = {});
+  std::vector<double> reach(const ContactMemories& memories, const std::vector<double>& way = {}) const;
+  std::vector<MetBlocks> met_at(const LoadedState& end, const std::vector<double>& way);
   StaticSolution solve_from(const LoadedState& from, double time_advance);
   bool is_unloaded() const;
   NearbyStart next_start(double step) const;
+  /// No equilibrium, if the step from `last` leads so far that its linear geometry says nothing of its end.
+  void refuse_if_far(const LoadedState& last, StaticSolution* solution) const;
   /// Solves again where the last solve ended, until forces and geometry belong to each other.
   StaticSolution correct(StaticSolution solution);
   double displacement_by_imbalance(const StaticSolution& solution) const;
