@@ -185,7 +185,12 @@ double joint_dissipation(const StepProblem& step, const ContactSolution& solutio
   double work = 0.0;
   for (int i = 0; i < step.num_contacts; ++i)
     work += joint_work(step, i, solution.gamma.segment<3>(3 * i), step.reach * z.segment<3>(3 * i)).friction;
-  for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie)
+  return work + tie_dissipation(step, solution);
+}
+
+double tie_dissipation(const StepProblem& step, const ContactSolution& solution) {
+  double work = 0.0;
+  for (int tie = step.num_contacts; tie < step.problem.num_contacts(); ++tie)
     work += yield_work(step, tie, solution);
   return work;
 }

@@ -59,5 +59,7 @@ StepWork work_of_step(const Model& model, const StepStart& start, const StepProb
 /// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+, and ties that of
 /// yielding.
 double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
+/// The part of ties that yield, J.
+double tie_dissipation(const StepProblem& step, const ContactSolution& solution);
 
 }  // namespace cupola

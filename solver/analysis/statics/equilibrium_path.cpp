@@ -136,6 +136,7 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
       return solution;
     }
     loaded_ = std::move(end);
+    yield_work_ = tie_dissipation(solution.step, solution.step_solution);
     dissipated_ += joint_dissipation(solution.step, solution.step_solution);
     return solution;
   }
@@ -174,7 +175,8 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
   const double long_step = options_.control ? kLongStepOfControl : kLongStep;
   const bool is_long =
       !softens && displacement_of(solution) > long_step * smallest_block_size(*model_.assembly);
-  if (stands() && (geometry_ == PathGeometry::end || is_long)) solution = correct(std::move(solution));
+  if (stands() && (geometry_ == PathGeometry::end || is_long))
+    solution = correct(last.memories.ties, std::move(solution));
   if (stands()) {
     // Blocks that rest as drawn say nothing of the next step.
     if (last_displacement_.size() > 0 || !displacement.isZero(0.0)) last_displacement_ = displacement;

@@ -65,8 +65,9 @@ class EquilibriumPath {
   NearbyStart next_start(double step) const;
   /// No equilibrium, if the step from `last` leads so far that its linear geometry says nothing of its end.
   void refuse_if_far(const LoadedState& last, StaticSolution* solution) const;
-  /// Solves again where the last solve ended, until forces and geometry belong to each other.
-  StaticSolution correct(StaticSolution solution);
+  /// Solves again where the last solve ended, until forces and geometry belong to each other. `ties`: at the
+  /// start of the step.
+  StaticSolution correct(const std::vector<TieMemory>& ties, StaticSolution solution);
   double displacement_by_imbalance(const StaticSolution& solution) const;
   bool is_settled(const StaticSolution& solution) const;
 
@@ -80,6 +81,7 @@ class EquilibriumPath {
   State start_;
   ContactSet contacts_;
   double dissipated_ = 0.0;
+  double yield_work_ = 0.0;  // J, of ties in the last solve
   ContactMemories memories_;
   int solves_ = 0;
 };

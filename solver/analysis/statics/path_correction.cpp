@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -46,7 +47,7 @@ void EquilibriumPath::refuse_if_far(const LoadedState& last, StaticSolution* sol
   solution->message = reason + " in one step; take shorter steps";
 }
 
-StaticSolution EquilibriumPath::correct(StaticSolution solution) {
+StaticSolution EquilibriumPath::correct(const std::vector<TieMemory>& ties, StaticSolution solution) {
   constexpr int kMost = 200;  // of a slender tower that sways each takes away a tenth
   const double by_step = std::max(displacement_of(solution), imposed_displacement(model_, start_, options_));
   for (int pass = 0; !is_settled(solution); ++pass) {
@@ -61,7 +62,12 @@ StaticSolution EquilibriumPath::correct(StaticSolution solution) {
     const int iterations = solution.iterations;
     options_.nearby = NearbyStart{};
     if (options_.control) options_.control->displacement = 0.0;  // it stays where the step has led
-    solution = solve_from(LoadedState(loaded_), 0.0);
+    // The elongation of a tie follows from where its ends are: it yields by as much as at the end.
+    LoadedState from = loaded_;
+    for (size_t k = 0; k < from.memories.ties.size(); ++k)
+      from.memories.ties[k].yielded = k < ties.size() ? ties[k].yielded : 0.0;
+    dissipated_ -= yield_work_;
+    solution = solve_from(from, 0.0);
     solution.iterations += iterations;
     if (solution.outcome == StaticOutcome::equilibrium) continue;
     solution.message = "in the geometry at the end of the step: " + solution.message;
