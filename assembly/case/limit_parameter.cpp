@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/results.hpp"
 
 namespace cupola {
 namespace {
@@ -100,10 +101,13 @@ std::string varied_joints(const LimitSearch& limit) {
   const auto [from, to] = std::pair(limit.joints->from, limit.joints->to);
   const bool of_all_kinds = limit.joints->sort == RingJoints::Sort::all;
   if (of_all_kinds && from == 0 && to >= kLastRing) return "";
-  std::string kind = of_all_kinds ? "" : to_string(limit.joints->sort) + " ";
-  std::ranges::replace(kind, '_', ' ');
+  const std::string kind = of_all_kinds ? "" : in_words(to_string(limit.joints->sort)) + " ";
   return from == to ? fmt::format(" of the {}joints of course {}", kind, from)
                     : fmt::format(" of the {}joints of courses {} to {}", kind, from, to);
+}
+
+std::string critical_quantity(const LimitSearch& limit) {
+  return "critical " + in_words(to_string(limit.parameter)) + varied_joints(limit);
 }
 
 std::pair<double, double> compressive_strengths(const Joints& joints) {

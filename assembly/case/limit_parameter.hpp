@@ -23,6 +23,9 @@ bool seeks_lantern(const Analysis& analysis);
 /// parameter.
 std::string varied_joints(const LimitSearch& limit);
 
+/// "critical friction of the bed joints of course 1": what a limit analysis seeks.
+std::string critical_quantity(const LimitSearch& limit);
+
 /// Pa, the least and the greatest compressive strength that the case gives to any joints; infinity: unlimited.
 std::pair<double, double> compressive_strengths(const Joints& joints);
 

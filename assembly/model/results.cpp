@@ -54,6 +54,17 @@ std::vector<Joint> joints_of(const ContactTable& contacts) {
   return joints;
 }
 
+void add_clause(const std::string& clause, std::string* text) {
+  if (!clause.empty()) *text += (text->empty() ? "" : "; ") + clause;
+}
+
+std::string clauses(const Sought& sought) {
+  std::string text = sought.reason;
+  add_clause(sought.advice, &text);
+  add_clause(sought.also, &text);
+  return text;
+}
+
 std::string limit_unit(const std::string& parameter) {
   if (parameter == "tilt") return "degrees";
   if (parameter == "acceleration") return "g";
@@ -62,14 +73,10 @@ std::string limit_unit(const std::string& parameter) {
   return parameter.ends_with("friction") ? "" : "factor";  // load, thickness, spread, joint_extent
 }
 
-namespace {
-
-std::string in_words(std::string parameter) {
-  std::replace(parameter.begin(), parameter.end(), '_', ' ');
-  return parameter;
+std::string in_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  return name;
 }
-
-}  // namespace
 
 std::string critical_text(const CriticalValue& critical) {
   const std::string unit = limit_unit(critical.parameter);

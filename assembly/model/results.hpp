@@ -195,6 +195,27 @@ struct Robustness {
   double azimuth_deg = 0.0;     ///< direction of the acceleration of the blocks, from x towards y
 };
 
+/// What a search for a value found, in words: of a limit analysis, `analysis.robustness` or
+/// `analysis.staged.least`. All but the first two are clauses of the message.
+struct Sought {
+  std::string quantity = {};  ///< "critical friction"
+  /// Where there is no value: "no limit above 0.15", "none", "not found", "unknown", "0". Empty: there is one.
+  std::string found = {};
+  std::string reason = {};  ///< what shows that
+  std::string advice = {};  ///< what to try; may be empty
+  std::string also = {};    ///< what else is known, as a second limit; may be empty
+};
+
+/// Appends a clause after "; ".
+void add_clause(const std::string& clause, std::string* text);
+
+/// "the structure stands at both ends of the bracket, 0 and 0.1; widen the bracket": reason, advice and what
+/// else is known.
+std::string clauses(const Sought& sought);
+
+/// "joint extent": the name of a key.
+std::string in_words(std::string name);
+
 /// Unit of the parameter of a limit analysis: "degrees", "g", "Pa", "times the weight", "factor", or "" for
 /// friction.
 std::string limit_unit(const std::string& parameter);
@@ -255,6 +276,7 @@ struct Summary {
   std::optional<double> bears_loads_until_s;
   /// Limit analysis without a critical value: whether the structure stands, or moves, at both ends.
   std::optional<bool> stands_at_both_ends;
+  std::optional<Sought> sought;          ///< analyses that search for a value
   std::vector<ForceRange> ranges;        ///< range analysis only
   std::optional<Robustness> robustness;  ///< static analysis, on request
   std::vector<PartVerdict> parts;  ///< static analysis without an equilibrium of the whole: the largest first

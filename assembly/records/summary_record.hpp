@@ -59,6 +59,19 @@ void fields(Visitor&& visit, Is<Robustness> auto& r) {
 }
 
 template <class Visitor>
+void fields(Visitor&& visit, Is<Sought> auto& s) {
+  visit("quantity", "", "what was sought, as `critical friction`", s.quantity);
+  visit(
+      "found", "",
+      "where there is no value: `no limit above 0.15`, `none`, `not found`, `unknown`, `0`; empty: there is "
+      "one",
+      s.found);
+  visit("reason", "", "what shows that", s.reason);
+  visit("advice", "", "what to try; may be empty", s.advice);
+  visit("also", "", "what else is known, as a second limit; may be empty", s.also);
+}
+
+template <class Visitor>
 void fields(Visitor&& visit, Is<RangeEnd> auto& e) {
   visit("outcome", "",
         "`bounded`, `unbounded` (by a self-stress without load, or a ratio's denominator of zero), "
@@ -183,6 +196,9 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
       "limit analysis without a critical value: whether the structure stands, or moves, at both ends of its "
       "bracket; absent if it stands only between them",
       s.stands_at_both_ends);
+  visit("sought", "",
+        "limit analysis, `analysis.robustness` and `analysis.staged.least`: what the search found, see below",
+        s.sought);
   visit("ranges", "", "range analysis only: one entry per quantity, see below", s.ranges);
   visit("parts", "",
         "static analysis without an equilibrium of the whole, of several parts that no contact or tie "

@@ -117,9 +117,10 @@ DirectLimit search(const Case& scene, const Assembly& assembly, const AnalysisSi
   throw std::logic_error("a direct limit analysis of a spread");
 }
 
-/// Writes the mechanism of a structure that moves at every value tried. `gravity` as in write_ends().
-void write_motion(const DirectLimit& limit, const std::string& parameter, double gravity,
-                  const AnalysisSinks& sinks, Summary* summary) {
+/// Writes the mechanism of a structure that moves at every value tried, and returns its description. `gravity`
+/// as in write_ends().
+std::string write_motion(const DirectLimit& limit, const std::string& parameter, double gravity,
+                         const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& moving = limit.at_moving;
   const Mechanism mechanism =
       find_mechanism(moving.model, moving.start, moving.contacts, moving.problem.contacts, limit.mechanism);
@@ -130,11 +131,11 @@ void write_motion(const DirectLimit& limit, const std::string& parameter, double
   summary->weight_N = free_weight(*moving.assembly, gravity);
   write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
                   {std::vector<Vec3>(nc, Vec3::Zero()), {}}, std::vector<double>(nc, 0.0), parameter, sinks);
-  summary->message += "; " + describe(mechanism);
+  return describe(mechanism);
 }
 
-/// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism: "; " and
-/// a clause. `gravity`: m/s2, without a horizontal acceleration that the search adds.
+/// Writes the admissible state and the mechanism as frames. Returns a description of the mechanism, "" without
+/// one. `gravity`: m/s2, without a horizontal acceleration that the search adds.
 std::string write_ends(const DirectLimit& limit, const std::string& parameter, double gravity,
                        const AnalysisSinks& sinks, Summary* summary) {
   const RigidScene& stable = limit.at_admissible;
@@ -154,7 +155,7 @@ std::string write_ends(const DirectLimit& limit, const std::string& parameter, d
   if (moving.contacts.points.size() == stable.contacts.points.size())
     write_mechanism(moving.model, moving.start, moving.contacts, moving.memories, mechanism,
                     {frame.contacts.force, frame.ties.force}, frame.contacts.law_violation, parameter, sinks);
-  return "; " + describe(mechanism);
+  return describe(mechanism);
 }
 
 /// Writes the assembly without forces: the search showed nothing.
@@ -168,10 +169,8 @@ void write_nothing_found(const Case& scene, const Assembly& assembly, const Anal
   summarize_frame(frame, own.model, summary);
 }
 
-/// The critical value and what proves it from both sides.
-/// `joints`: of varied_joints().
-std::string bounds_text(const CriticalValue& critical, const std::string& joints, const DirectLimit& limit,
-                        bool balanced) {
+/// What proves the critical value from both sides.
+std::string bounds_text(const DirectLimit& limit, bool balanced) {
   const std::string state =
       fmt::format("{} at {:.8g}", balanced ? "an admissible state" : "forces that do not balance the loads",
                   limit.admissible);
@@ -181,13 +180,12 @@ std::string bounds_text(const CriticalValue& critical, const std::string& joints
   const std::string other =
       fmt::format("{} {:.8g}{}", limit.mechanism.size() > 0 ? "a mechanism at" : "none below", limit.moving,
                   limit.motion_proven ? "" : unproven);
-  return fmt::format("{}{}; {}, {} (relative width {:.1e}){}", critical_text(critical), joints, state, other,
-                     limit.relative_width(), limit.message);
+  return fmt::format("{}, {} (relative width {:.1e})", state, other, limit.relative_width());
 }
 
 /// Coulomb's law admits the same forces but does not let every such state stand.
 std::string bound_for_coulomb(const DirectLimit& limit) {
-  return fmt::format("; under Coulomb's law the critical value is the same or {}",
+  return fmt::format("under Coulomb's law the critical value is the same or {}",
                      limit.moving < limit.admissible ? "larger" : "smaller");
 }
 
@@ -196,7 +194,8 @@ std::string bound_for_coulomb(const DirectLimit& limit) {
 void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimit limit,
                          const AnalysisSinks& sinks, Summary* summary) {
   const std::string name = to_string(scene.analysis.limit.parameter);
-  summary->message = name + varied_joints(scene.analysis.limit) + ": " + limit.message;
+  Sought sought = std::move(limit.sought);
+  std::string mechanism;
   summary->stands_at_both_ends = limit.stands_at_both_ends;
   const bool stands = limit.gamma.size() > 0, moves = limit.mechanism.size() > 0;
   const double gravity = scene.loads.gravity.norm();
@@ -211,7 +210,7 @@ void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimi
     // Recomputed from points and world forces: what the solver calls admissible must balance.
     const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;
     if (balanced && stands) summary->status = Status::stable;
-    if (balanced && moves) summary->message += "; the case itself stands";
+    if (balanced && moves) add_clause("the case itself stands", &sought.also);
   } else if (moves) {
     if (of_case.outcome == ConicOutcome::infeasible) {
       summary->status =
@@ -219,10 +218,14 @@ void summarize_not_found(const Case& scene, const Assembly& assembly, DirectLimi
       limit.at_moving = std::move(own);
       limit.mechanism = of_case.v;
     }
-    write_motion(limit, name, gravity, sinks, summary);
+    mechanism = write_motion(limit, name, gravity, sinks, summary);
   } else {
     write_nothing_found(scene, assembly, sinks, summary);
   }
+  summary->message = fmt::format("{}{}: {}{}{}", name, varied_joints(scene.analysis.limit), sought.found,
+                                 sought.found.empty() ? "" : ": ", clauses(sought));
+  add_clause(mechanism, &summary->message);
+  summary->sought = concluded(std::move(sought), summary->status);
 }
 
 void summarize_found(const Case& scene, const DirectLimit& limit, const AnalysisSinks& sinks,
@@ -235,8 +238,13 @@ void summarize_found(const Case& scene, const DirectLimit& limit, const Analysis
   const bool balanced = summary->equilibrium_residual.value() <= kOutcomeTolerance;  // as above
   if (balanced) summary->status = width <= asked ? Status::stable : Status::bracketed;
   summary->critical = CriticalValue{name, limit.middle(), limit.admissible, limit.moving};
-  summary->message = bounds_text(*summary->critical, varied_joints(scene.analysis.limit), limit, balanced) +
-                     mechanism + bound_for_coulomb(limit);
+  Sought sought = limit.sought;
+  sought.reason = bounds_text(limit, balanced);
+  add_clause(limit.sought.reason, &sought.reason);
+  summary->message = critical_text(*summary->critical) + varied_joints(scene.analysis.limit);
+  for (const std::string& clause : {clauses(sought), mechanism, bound_for_coulomb(limit)})
+    add_clause(clause, &summary->message);
+  summary->sought = std::move(sought);
   if (width > asked) summary->message += missed_width(width, asked);
 }
 
@@ -260,6 +268,7 @@ std::optional<Summary> run_direct_limit(const Case& scene, const Assembly& assem
     summarize_found(scene, limit, sinks, &summary);
   else
     summarize_not_found(scene, assembly, limit, sinks, &summary);
+  summary.sought->quantity = critical_quantity(scene.analysis.limit);
   const RigidScene& stands = limit.at_admissible;
   summary.message += gaps_note(stands.model, stands.start, stands.contacts);
   summary.solve_time_seconds = wall_seconds() - started;

@@ -60,6 +60,7 @@ struct LimitRun {
   StaticOptions options;
   std::optional<Probe> stable = {}, moving = {}, undecided_probe = {};
   std::string undecided = {};  ///< why the last trial that did not converge failed
+  std::string also = {};       ///< what is known of values outside the bracket found
   int iterations = 0;
   int num_trials = 0;
   bool interrupted = false;
@@ -157,7 +158,7 @@ Bracket LimitRun::search_value() {
   if (interrupted || whole.at_both_ends != StaticOutcome::moving || !own) return whole;
   Bracket above = search_from(*own);
   if (!above.found) return whole;
-  above.message += fmt::format("; it moves again at {:g}", limit.low);
+  also = fmt::format("it moves again at {:g}", limit.low);
   return above;
 }
 
@@ -256,18 +257,41 @@ std::string end_at_sound_stones(const Assembly& assembly, LimitSearch* limit) {
   if (limit->low >= most.factor)
     throw InputError(fmt::format("analysis.limit.low = {:g}: {}", limit->low, why));
   limit->high = most.factor;
-  return "; the bracket ends early, because " + why;
+  return "the bracket ends early, because " + why;
+}
+
+/// The critical value, or why there is none by the status of the summary, and the message that begins with it.
+void record_search(const LimitRun& run, const Bracket& bracket, Summary* summary) {
+  const LimitSearch& limit = run.scene.analysis.limit;
+  const std::string parameter = to_string(limit.parameter);
+  Sought sought{.reason = bracket.message, .also = run.also};
+  if (bracket.found)
+    summary->critical =
+        CriticalValue{parameter, bracket.middle(), bracket.stable.value, bracket.moving.value};
+  if (bracket.at_both_ends) {
+    const bool stands = *bracket.at_both_ends == StaticOutcome::equilibrium;
+    summary->stands_at_both_ends = stands;
+    if (limit.parameter != LimitSearch::Parameter::spread)
+      sought = at_both_ends(stands, limit.low, limit.high);
+    if (!stands && run.stable) sought.also = "the case itself stands";
+  }
+  summary->message =
+      fmt::format("{}{}: {}", summary->critical ? critical_text(*summary->critical) : parameter,
+                  varied_joints(limit), clauses(sought));
+  if (!bracket.found) sought = concluded(std::move(sought), summary->status);
+  sought.quantity = critical_quantity(limit);
+  summary->sought = std::move(sought);
 }
 
 std::optional<Summary> search_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   if (uses_direct_limit(scene.analysis)) return run_direct_limit(scene, assembly, sinks);
   LimitRun run{scene, assembly, sinks, verdict_options(scene.analysis)};
-  const LimitSearch::Parameter parameter = scene.analysis.limit.parameter;
   run.options.log = sinks.log;
   const double started = wall_seconds();
   sinks.history(csv_header(kTrialColumns));
-  const Bracket bracket =
-      parameter == LimitSearch::Parameter::spread ? run.follow_spread() : run.search_value();
+  const Bracket bracket = scene.analysis.limit.parameter == LimitSearch::Parameter::spread
+                              ? run.follow_spread()
+                              : run.search_value();
   if (run.interrupted) return std::nullopt;
 
   Summary summary;
@@ -277,15 +301,8 @@ std::optional<Summary> search_limit(const Case& scene, const Assembly& assembly,
                                                : Status::unconverged;
   const std::string mechanism = write_frames(run, &summary);
   summary.status = status;
-  if (bracket.at_both_ends) summary.stands_at_both_ends = *bracket.at_both_ends == StaticOutcome::equilibrium;
-  if (bracket.found)
-    summary.critical =
-        CriticalValue{to_string(parameter), bracket.middle(), bracket.stable.value, bracket.moving.value};
-  summary.message = fmt::format(
-      "{}{}: {}{}{}", summary.critical ? critical_text(*summary.critical) : to_string(parameter),
-      varied_joints(scene.analysis.limit), bracket.message, mechanism.empty() ? "" : "; ", mechanism);
-  if (bracket.at_both_ends == StaticOutcome::moving && run.stable)
-    summary.message += "; the case itself stands";
+  record_search(run, bracket, &summary);
+  add_clause(mechanism, &summary.message);
   for (const std::optional<Probe>* probe : {&run.stable, &run.moving})
     if (*probe) {
       summary.message += gaps_note((*probe)->model, (*probe)->start, (*probe)->contacts);
@@ -322,7 +339,9 @@ std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, co
   Case sound = scene;
   const std::string note = end_at_sound_stones(assembly, &sound.analysis.limit);
   std::optional<Summary> summary = search_limit(sound, assembly, sinks);
-  if (summary) summary->message += note;
+  if (!summary) return summary;
+  add_clause(note, &summary->message);
+  if (!summary->critical) add_clause(note, &summary->sought->also);
   return summary;
 }
 

@@ -92,23 +92,32 @@ DirectionLimits find_robustness(const Case& scene, const Assembly& assembly) {
   return all;
 }
 
-/// Clauses for the message of a run.
-std::string describe(const DirectionLimits& limits) {
+/// What the search over all directions found.
+Sought describe(const DirectionLimits& limits) {
+  Sought sought{.quantity = "horizontal acceleration"};
   const std::string undecided =
       limits.undecided > 0
-          ? fmt::format("; {} of {} horizontal directions are undecided", limits.undecided, limits.directions)
+          ? fmt::format("{} of {} horizontal directions are undecided", limits.undecided, limits.directions)
           : "";
-  if (!limits.least)
-    return undecided.empty()
-               ? fmt::format("; no horizontal acceleration in {} directions makes it move", limits.directions)
-               : undecided;
-  const Robustness& least = *limits.least;
-  if (least.acceleration_g == 0.0)
-    return fmt::format("; any horizontal acceleration towards {:g} degrees makes it move{}",
-                       least.azimuth_deg, undecided);
-  return fmt::format(
-      "; the least of {} horizontal accelerations that make it move is {:.4g} g, towards {:g} degrees{}",
-      least.directions, least.moving_g, least.azimuth_deg, undecided);
+  if (limits.least) {
+    const Robustness& least = *limits.least;
+    sought.reason =
+        least.acceleration_g == 0.0
+            ? fmt::format("any horizontal acceleration towards {:g} degrees makes it move", least.azimuth_deg)
+            : fmt::format(
+                  "the least of {} horizontal accelerations that make it move is {:.4g} g, towards "
+                  "{:g} degrees",
+                  least.directions, least.moving_g, least.azimuth_deg);
+    sought.also = undecided;
+  } else if (!undecided.empty()) {
+    sought.found = "unknown";
+    sought.reason = undecided;
+  } else {
+    sought.found = "no limit";
+    sought.reason =
+        fmt::format("no horizontal acceleration in {} directions makes it move", limits.directions);
+  }
+  return sought;
 }
 
 /// The least that was found may not be the least of all; "" if every direction is decided.
@@ -199,7 +208,8 @@ Summary run_static(const Case& scene, const Assembly& assembly, const AnalysisSi
   if (scene.analysis.robustness > 0 && solution.outcome == StaticOutcome::equilibrium) {
     const DirectionLimits limits = find_robustness(scene, assembly);
     summary.robustness = limits.least;
-    summary.message += describe(limits);
+    summary.sought = describe(limits);
+    add_clause(clauses(*summary.sought), &summary.message);
     if (const std::string warning = undecided_warning(limits); !warning.empty())
       summary.warnings.push_back(warning);
   }

@@ -16,28 +16,19 @@ double DirectLimit::relative_width() const {
   return std::abs(admissible - moving) / (is_zero() ? span : std::abs(middle()));
 }
 
-DirectLimit not_found(DirectLimit searched, std::string message) {
+DirectLimit not_found(DirectLimit searched, Sought why) {
   DirectLimit limit;
   limit.trials = searched.trials;
   limit.iterations = searched.iterations;
-  limit.message = std::move(message);
+  limit.sought = std::move(why);
   return limit;
 }
 
-std::string unsolved_end(double value) {
-  return fmt::format(
-      "the solve at {:g}, an end of the search (analysis.limit.low or high), did not converge; move that end",
-      value);
-}
-
-std::string at_both_ends(bool admissible, double low, double high) {
-  return admissible
-             ? fmt::format(
-                   "the structure stands at both ends of the bracket, {:g} and {:g}; widen the bracket", low,
-                   high)
-             : fmt::format(
-                   "the structure moves at both ends of the bracket, {:g} and {:g}; it must stand at one",
-                   low, high);
+Sought unsolved_end(double value) {
+  return {
+      .reason = fmt::format(
+          "the solve at {:g}, an end of the search (analysis.limit.low or high), did not converge", value),
+      .advice = "move that end"};
 }
 
 }  // namespace cupola

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "assembly/case/case.hpp"
+#include "assembly/model/results.hpp"
 #include "solver/analysis/admissible/rigid_scene.hpp"
 #include "solver/conic/conic_bounds.hpp"
 
@@ -35,7 +36,8 @@ struct DirectLimit {
   VecX gamma;      ///< N: the admissible state (3 nc)
   VecX mechanism;  ///< its velocities prove the motion (6 nb); empty for a stress
   int trials = 0, iterations = 0;
-  std::string message;  ///< how the search ended
+  /// How the search ended: why it found nothing, or what its proof leaves open, and what else is known.
+  Sought sought;
   double middle() const { return 0.5 * (admissible + moving); }
   /// The critical value is zero but for rounding, which has no relative width.
   bool is_zero() const;
@@ -77,10 +79,8 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
 DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportTrial& report);
 
 /// The search ends without a limit: why. Keeps the counts of what was solved.
-DirectLimit not_found(DirectLimit searched, std::string message);
+DirectLimit not_found(DirectLimit searched, Sought why);
 /// Why: the solve at an end of the bracket did not decide, and what to try.
-std::string unsolved_end(double value);
-/// Why: the structure stands, or moves, at both ends of the bracket, and what to try.
-std::string at_both_ends(bool admissible, double low, double high);
+Sought unsolved_end(double value);
 
 }  // namespace cupola

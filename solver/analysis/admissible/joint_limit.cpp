@@ -10,6 +10,7 @@
 #include "solver/analysis/admissible/direct_limit.hpp"
 #include "solver/analysis/admissible/pull_search.hpp"
 #include "solver/analysis/admissible/pull_solve.hpp"
+#include "solver/analysis/statics/limit_search.hpp"
 #include "solver/conic/conic_bounds.hpp"
 #include "solver/conic/motion_proof.hpp"
 
@@ -135,14 +136,15 @@ DirectLimit without_limit(Ends ends, double low, double high, LimitSearch::Param
   const bool needs_none =
       parameter == LimitSearch::Parameter::friction && low == kNoFriction && ends.below.admissible();
   if (needs_none)
-    limit.message =
-        fmt::format("no limit: the structure stands with a friction of {:g}, as good as none", kNoFriction);
+    limit.sought = {
+        .found = "no limit",
+        .reason = fmt::format("the structure stands with a friction of {:g}, as good as none", kNoFriction)};
   // Joints with less friction or of less extent bear no force that the others do not.
   const bool end_solved = ends.below.admissible() ? ends.below.value <= low : ends.above.value >= high;
   if (parameter != LimitSearch::Parameter::thickness && more_bears_more && !needs_none && end_solved)
-    limit.message = fmt::format("{}the structure {} at every value from {:g} to {:g}",
-                                ends.below.admissible() ? fmt::format("no limit above {:g}: ", low) : "",
-                                ends.below.admissible() ? "stands" : "moves", low, high);
+    limit.sought = {.found = ends.below.admissible() ? fmt::format("no limit above {:g}", low) : "",
+                    .reason = fmt::format("the structure {} at every value from {:g} to {:g}",
+                                          ends.below.admissible() ? "stands" : "moves", low, high)};
   if (ends.below.admissible()) {
     limit.gamma = admissible_state(ends.below);
     limit.at_admissible = std::move(ends.below.scene);
@@ -198,10 +200,10 @@ DirectLimit limit_of_joints(const SceneAt& scene_at, double low, double high, do
   }
   DirectLimit limit = trials.counts();
   if (const auto& undecided = search.undecided())
-    limit.message = undecided->first == undecided->second
-                        ? fmt::format("; the solve at {:.8g} did not decide", undecided->first)
-                        : fmt::format("; the solves from {:.8g} to {:.8g} did not decide", undecided->first,
-                                      undecided->second);
+    limit.sought.reason = undecided->first == undecided->second
+                              ? fmt::format("the solve at {:.8g} did not decide", undecided->first)
+                              : fmt::format("the solves from {:.8g} to {:.8g} did not decide",
+                                            undecided->first, undecided->second);
   limit.found = true;
   limit.admissible = search.admissible.value;
   limit.moving = search.moving.value;

@@ -49,35 +49,31 @@ bool are_linear(const SceneAt& scene_at, double low, double high) {
 DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high,
                                 const std::function<double(double)>& in_unit, DirectLimit limit) {
   RigidScene scene;
+  Sought why;
   if (derivative_of_loads(scene_at, high).isZero(0.0)) {
-    limit = not_found(
-        std::move(limit),
-        "the structure stands, and no load depends on the parameter: give a load other than weight and fill, "
-        "not 0 at the time 0");
     scene = scene_at(high);
-    limit.stands_at_both_ends = true;
-    limit.gamma = solve_conic(scene.problem).gamma;
-    limit.at_admissible = std::move(scene);
-    return limit;
-  }
-  const double towards =
-      std::abs(low) > std::abs(high) ? -1.0 : 1.0;  // where the loads of the parameter grow
-  const double end = towards > 0.0 ? high : low;
-  const ConicSolution grown = solve_conic(largest_multiplier(scene_at, end, towards, &scene));
-  const bool linear = are_linear(scene_at, low, high);  // or what grows at this end says nothing of others
-  if (grown.outcome == ConicOutcome::unbounded && linear) {
-    limit = not_found(std::move(limit),
-                      fmt::format("no limit: the structure stands at {:g} and at every {} value, because the "
-                                  "loads that grow with it have an admissible state by themselves",
-                                  in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower"));
+    why.reason =
+        "the structure stands, and no load depends on the parameter: give a load other than weight and fill, "
+        "not 0 at the time 0";
   } else {
-    limit = not_found(std::move(limit), at_both_ends(true, in_unit(low), in_unit(high)));
-    if (linear)
-      limit.message =
-          fmt::format("no limit from {:g} to {:g}: {}", in_unit(low), in_unit(high), limit.message);
-    if (linear && grown.outcome == ConicOutcome::optimal)
-      limit.message += fmt::format(" beyond about {:.4g}", in_unit(end + grown.multipliers[0]));
+    const double towards =
+        std::abs(low) > std::abs(high) ? -1.0 : 1.0;  // where the loads of the parameter grow
+    const double end = towards > 0.0 ? high : low;
+    const ConicSolution grown = solve_conic(largest_multiplier(scene_at, end, towards, &scene));
+    const bool linear = are_linear(scene_at, low, high);  // or what grows at this end says nothing of others
+    why = at_both_ends(true, in_unit(low), in_unit(high));
+    if (linear && grown.outcome == ConicOutcome::unbounded) {
+      why = {.found = "no limit",
+             .reason = fmt::format("the structure stands at {:g} and at every {} value, because the loads "
+                                   "that grow with it have an admissible state by themselves",
+                                   in_unit(towards > 0.0 ? low : high), towards > 0.0 ? "higher" : "lower")};
+    } else if (linear) {
+      why.found = fmt::format("no limit from {:g} to {:g}", in_unit(low), in_unit(high));
+      if (grown.outcome == ConicOutcome::optimal)
+        why.advice += fmt::format(" beyond about {:.4g}", in_unit(end + grown.multipliers[0]));
+    }
   }
+  limit = not_found(std::move(limit), std::move(why));
   limit.stands_at_both_ends = true;
   limit.gamma = solve_conic(scene.problem).gamma;
   limit.at_admissible = std::move(scene);
@@ -104,19 +100,20 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
     const std::string everywhere =
         fmt::format("the structure moves at every value from {:g} to {:g}", in_unit(low), in_unit(high));
     if (greatest.outcome == ConicOutcome::infeasible) {
-      limit.message = everywhere + ", because no multiple of the loads that grow with it holds the others";
+      limit.sought = {.reason = everywhere +
+                                ", because no multiple of the loads that grow with it holds the others"};
     } else if (bounded && end > low && end < high) {
       const ConicSolution least = solve_conic(largest_multiplier(scene_at, high, -1.0, &scene));
       const std::string from =
           least.outcome == ConicOutcome::optimal
               ? fmt::format(" from {:g}", in_unit(without_rounding(high + least.multipliers[0], high - low)))
               : "";
-      limit.message += fmt::format("; it stands{} up to {:g}", from, in_unit(end));
+      limit.sought.also = fmt::format("it stands{} up to {:g}", from, in_unit(end));
       limit.stands_at_both_ends.reset();  // it does not move throughout
     } else if (bounded || greatest.outcome == ConicOutcome::unbounded) {
-      limit.message =
-          everywhere + (end < high ? fmt::format("; it stands only below, up to {:g}", in_unit(end))
-                                   : std::string("; it stands only above"));
+      limit.sought = {.reason = everywhere,
+                      .also = end < high ? fmt::format("it stands only below, up to {:g}", in_unit(end))
+                                         : "it stands only above"};
     }
   }
   limit.at_moving = scene_at(low);
@@ -124,7 +121,7 @@ DirectLimit moves_at_both_ends(const SceneAt& scene_at, double low, double high,
   return limit;
 }
 
-/// "; it moves again beyond 1.2418": of linear loads of which the structure needs some, the limit on the other
+/// "it moves again beyond 1.2418": of linear loads of which the structure needs some, the limit on the other
 /// side of the interval in which it stands; "" if there is none. `moves` and `stands`: the bracket of the
 /// limit sought.
 std::string other_limit(const SceneAt& scene_at, double moves, double stands) {
@@ -134,7 +131,7 @@ std::string other_limit(const SceneAt& scene_at, double moves, double stands) {
   const ConicSolution grown = solve_conic(largest_multiplier(scene_at, stands, beyond ? 1.0 : -1.0, &scene));
   if (grown.outcome != ConicOutcome::optimal) return "";
   const double value = without_rounding(stands + grown.multipliers[0], std::abs(stands - moves));
-  return fmt::format("; it moves again {} {:.5g}", beyond ? "beyond" : "below", value);
+  return fmt::format("it moves again {} {:.5g}", beyond ? "beyond" : "below", value);
 }
 
 /// Moves one end of a bracket to its middle, and returns it; none if the solve there did not decide.
@@ -234,8 +231,8 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
       // rounding alone keeps forces from balance, a solve ends at any value.
       const std::optional<double> middle = halve(scene_at, &stands, &moves, &limit, report);
       if (!middle)
-        return not_found(std::move(limit), fmt::format("the linearised problem at {:.8g} is {}", in_unit(x),
-                                                       to_string(solution.outcome)));
+        return not_found(std::move(limit), {.reason = fmt::format("the linearised problem at {:.8g} is {}",
+                                                                  in_unit(x), to_string(solution.outcome))});
       x = *middle;
       take_bracket(scene_at, stands, moves, relative_width, &limit);
       continue;
@@ -247,8 +244,9 @@ DirectLimit limit_of_loads(const SceneAt& scene_at, double low, double high, dou
     limit.found = done;
   }
   if (!limit.found)
-    return not_found(std::move(limit), fmt::format("no convergence after {} linearisations", kMaxIterations));
-  limit.message = std::move(other);
+    return not_found(std::move(limit),
+                     {.reason = fmt::format("no convergence after {} linearisations", kMaxIterations)});
+  limit.sought.also = std::move(other);
   complete(scene_at, towards, &limit);
   return limit;
 }

@@ -60,7 +60,7 @@ DirectLimit least_peak_stress(const Case& scene, RigidScene rigid, const ReportT
   limit.trials = 1;
   limit.iterations = solution.iterations;
   if (solution.outcome == ConicOutcome::infeasible) {
-    limit.message = "no admissible state exists, whatever the stress";
+    limit.sought.reason = "no admissible state exists, whatever the stress";
     limit.mechanism = solution.v;
     limit.at_moving = std::move(rigid);
     return limit;

@@ -30,18 +30,24 @@ std::string not_held_text(Least property, double tried, const std::string& stage
   return fmt::format("no fresh {} up to {} holds {}", to_string(property), most, stage);
 }
 
-/// The stage that hides what the construction needs, in words; empty: none.
-const std::string& undecided_stage(const ConstructionProgress& p) {
-  return p.not_held.empty() && p.may_need > p.least_stands ? p.may_need_text : p.not_held;
+/// Of a stage whose search found no value, or not the least.
+Sought answer_of_stage(const Bracket& bracket, Least property, const std::string& stage) {
+  const bool moves = bracket.moving.outcome == StaticOutcome::moving;
+  return {.found = moves ? "none" : "unknown",
+          .reason = moves ? not_held_text(property, bracket.moving.value, stage)
+                          : fmt::format("the least fresh {} of {} was not found ({})", to_string(property),
+                                        stage, bracket.message)};
 }
 
-/// The answer to analysis.staged.least, the last clause of the message. A value that not all stages have
-/// is none of the construction.
-std::string least_answer(const ConstructionProgress& p, Least property, const std::string& most_demanding) {
-  if (!undecided_stage(p).empty()) return undecided_stage(p);
-  if (p.least_stands < 0.0) return fmt::format("every stage stands without fresh {}", to_string(property));
-  return fmt::format("the most demanding is {}, which needs {:.4g}{}", most_demanding, p.least_stands,
-                     property == Least::cohesion ? " Pa" : "");
+/// The answer to analysis.staged.least, the last clause of the message. A value that not all stages have is
+/// none of the construction: a stage may hide what it needs.
+Sought least_answer(const ConstructionProgress& p, Least property, const std::string& most_demanding) {
+  if (!p.not_held.reason.empty()) return p.not_held;
+  if (p.may_need > p.least_stands) return p.may_need_more;
+  if (p.least_stands < 0.0)
+    return {.found = "0", .reason = fmt::format("every stage stands without fresh {}", to_string(property))};
+  return {.reason = fmt::format("the most demanding is {}, which needs {:.4g}{}", most_demanding,
+                                p.least_stands, property == Least::cohesion ? " Pa" : "")};
 }
 
 }  // namespace
@@ -66,16 +72,12 @@ void ConstructionProgress::include(const LaidBlocks& laid, const Construction& b
   if (property != Least::none && !stage.least.needs_none) {
     undecided += bracket.found && !bracket.narrow;
     if (!bracket.found) {
-      const std::string name = stage_name(next, laid, site.assembly);
-      const std::string text = bracket.moving.outcome == StaticOutcome::moving
-                                   ? not_held_text(property, bracket.moving.value, name)
-                                   : fmt::format("the least fresh {} of {} was not found ({})",
-                                                 to_string(property), name, bracket.message);
+      Sought answer = answer_of_stage(bracket, property, stage_name(next, laid, site.assembly));
       if (bracket.stable.outcome != StaticOutcome::equilibrium) {
-        if (not_held.empty()) not_held = text;
+        if (not_held.reason.empty()) not_held = std::move(answer);
       } else if (bracket.stable.value > may_need) {
         may_need = bracket.stable.value;
-        may_need_text = text;
+        may_need_more = std::move(answer);
       }
     }
   }
@@ -116,9 +118,10 @@ void ConstructionProgress::judge(const std::vector<LaidBlocks>& stages, const Ca
   if (undecided > 0)
     summary->message += fmt::format("; the least fresh {} of {} is not known to the width asked for", name,
                                     counted(undecided, "stage"));
-  summary->message +=
-      "; " + least_answer(*this, property, stage_name(least_stage, stages[least_stage], assembly));
-  if (undecided_stage(*this).empty() && least_stands >= 0.0)
+  summary->sought = least_answer(*this, property, stage_name(least_stage, stages[least_stage], assembly));
+  summary->sought->quantity = "critical fresh " + name;
+  add_clause(clauses(*summary->sought), &summary->message);
+  if (summary->sought->found.empty())
     summary->critical =
         CriticalValue{"fresh " + name, 0.5 * (least_stands + least_moves), least_stands, least_moves};
 }

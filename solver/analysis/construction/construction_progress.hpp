@@ -21,9 +21,9 @@ struct ConstructionProgress {
   WorstOfRun worst;
   double least_stands = -1.0, least_moves = 0.0;  ///< of the most demanding stage; < 0: none found
   int least_stage = 0;
-  std::string not_held;    ///< in words, the first stage for which the search found no value; empty: none
+  Sought not_held;         ///< of the first stage for which the search found no value; no reason: none
   double may_need = -1.0;  ///< most that a stage needs of which only that value is known; < 0: there is none
-  std::string may_need_text;
+  Sought may_need_more;    ///< of that stage
   std::optional<std::pair<double, double>> last_bracket;  ///< of the search
   std::string first_failure;  ///< stage and message of the first one that does not stand
   bool unconverged = false, ended = false;
@@ -59,7 +59,7 @@ template <class Archive>
 void visit(Archive& archive, ConstructionProgress& x) {
   archive(x.next, x.solved, x.standing, x.need_none, x.undecided, x.iterations, x.worst_balance,
           x.largest_displacement, x.worst, x.least_stands, x.least_moves, x.least_stage, x.not_held,
-          x.may_need, x.may_need_text, x.last_bracket, x.first_failure, x.unconverged, x.ended,
+          x.may_need, x.may_need_more, x.last_bracket, x.first_failure, x.unconverged, x.ended,
           x.foundation_fell, x.all_proven, x.motion_proven, x.stages_csv, x.failures_csv);
 }
 

@@ -48,6 +48,24 @@ void update(const LimitTrial& trial, Bracket* bracket, std::optional<Undecided>*
 
 }  // namespace
 
+Sought at_both_ends(bool stands, double low, double high) {
+  return {.reason = fmt::format("the structure {} at both ends of the bracket, {:g} and {:g}",
+                                stands ? "stands" : "moves", low, high),
+          .advice = stands ? "widen the bracket" : "it must stand at one"};
+}
+
+Sought concluded(Sought sought, Status status) {
+  if (stands(status)) {
+    if (sought.found.empty()) sought.found = "not found";
+  } else if (moves(status)) {
+    sought.found = sought.also.empty() ? "none" : "not found";
+    sought.advice.clear();  // no other bracket helps what falls by itself
+  } else {
+    sought.found = "unknown";
+  }
+  return sought;
+}
+
 Bracket bisect(double low, double high, const BracketWidth& required, const TryValue& try_value) {
   CUPOLA_ASSERT(low <= high);
   Bracket bracket;
@@ -68,9 +86,7 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
   const bool low_stands = at_low->outcome == StaticOutcome::equilibrium;
   if (at_low->outcome == at_high->outcome) {
     bracket.at_both_ends = at_low->outcome;
-    bracket.message = fmt::format("the structure {} at both ends of the bracket, {:g} and {:g}; {}",
-                                  low_stands ? "stands" : "moves", low, high,
-                                  low_stands ? "widen the bracket" : "it must stand at one");
+    bracket.message = clauses(at_both_ends(low_stands, low, high));
     return bracket;
   }
   bracket.stable = low_stands ? *at_low : *at_high;

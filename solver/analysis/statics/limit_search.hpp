@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "assembly/model/results.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
 
 namespace cupola {
@@ -40,6 +41,13 @@ struct BracketWidth {
 
 /// Result at a value; none if the search is to be abandoned.
 using TryValue = std::function<std::optional<LimitTrial>(double value)>;
+
+/// The structure stands, or moves, at both ends of the bracket: why, and what to try.
+Sought at_both_ends(bool stands, double low, double high);
+
+/// The record of a search without a critical value, by the status of the case itself: unconverged if the case
+/// does otherwise than the search says. A search itself finds at most that there is no limit.
+Sought concluded(Sought sought, Status status);
 
 /// Bisects between a value at which the structure stands and one at which it moves, until the bracket has the
 /// required width. A trial that does not converge decides nothing: the bracket then closes in on that value

@@ -86,6 +86,17 @@ TEST(SummaryJson, RangesRoundTrip) {
   EXPECT_THROW(summary_from_json(damaged, "summary.json"), InputError);
 }
 
+TEST(SummaryJson, WhatASearchFoundRoundTrips) {
+  Summary s = example_summary();
+  EXPECT_EQ(to_json(s).find("sought"), std::string::npos) << "as of earlier versions, which are read above";
+  s.sought = Sought{"critical friction", "no limit above 0.15", "it stands", "widen it", "it moves at 2"};
+  const Summary back = summary_from_json(to_json(s), "summary.json");
+  ASSERT_TRUE(back.sought);
+  EXPECT_EQ(back.sought->quantity, "critical friction");
+  EXPECT_EQ(back.sought->found, "no limit above 0.15");
+  EXPECT_EQ(clauses(*back.sought), "it stands; widen it; it moves at 2");
+}
+
 TEST(SummaryJson, ErrorsNameTheKey) {
   const std::string good = to_json(example_summary());
   const auto error_of = [](const std::string& text) -> std::string {

@@ -58,6 +58,7 @@ TEST(FormatPage, HasTheTablesOfTheRecords) {
                                    table_of(WorstSteps(), "key of `worst_steps`"),
                                    table_of(RunStep(), "key of an entry of `worst_steps`"),
                                    table_of(Robustness(), "key of `robustness`"),
+                                   table_of(Sought(), "key of `sought`"),
                                    table_of(ForceRange(), "key of an entry of `ranges`"),
                                    table_of(RangeEnd(), "key of `min` and `max`"),
                                    table_of(PartVerdict(), "key of an entry of `parts`")})

@@ -178,7 +178,7 @@ TEST(DirectLimitEnds, NoLimitLiesOutsideItsBracket) {
     return rigid;
   };
   const DirectLimit limit = limit_of_loads(scene_at, 0.0, 10.0, 1e-5, [](const DirectTrial&) {});
-  ASSERT_TRUE(limit.found) << limit.message;
+  ASSERT_TRUE(limit.found) << clauses(limit.sought);
   EXPECT_NEAR(limit.middle(), 1.0, 0.02);  // of bisection, whose solves notice it at some values
 }
 
