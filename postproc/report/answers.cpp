@@ -11,6 +11,7 @@
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/ending.hpp"
 #include "postproc/evaluation/margin.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/figures/plot_style.hpp"
 #include "postproc/report/gives_way.hpp"
 #include "postproc/report/loads_text.hpp"
@@ -40,23 +41,12 @@ std::string distance_text(const Evaluation& e, const std::string& unit) {
 
 }  // namespace
 
-std::string parameter_words(std::string parameter) {
-  std::ranges::replace(parameter, '_', ' ');
-  return parameter;
-}
-
 std::string distance_from_limit(double factor, const CriticalValue& critical) {
   return critical.stable < critical.moving ? fmt::format(" and bears {:.3g} times as much", factor)
                                            : fmt::format(", {:.3g} times what it needs", factor);
 }
 
 namespace {
-
-/// The clause of a message that starts so, as "it moves again beyond 1.2418"; "" if it has none.
-std::string clause_of(const std::string& message, const char* begins) {
-  const size_t start = message.find(begins);
-  return start == std::string::npos ? "" : message.substr(start, message.find("; ", start) - start);
-}
 
 KeyNumber critical_answer(const Evaluation& e) {
   const CriticalValue& critical = *e.summary.critical;
@@ -78,15 +68,13 @@ KeyNumber critical_answer(const Evaluation& e) {
   if (!decides.empty())
     details.push_back(
         fmt::format("{} it {}", critical.stable < critical.moving ? "beyond" : "below", decides));
-  if (const std::string other = clause_of(e.summary.message, "it moves again "); !other.empty())
-    details.push_back(other);
+  if (const auto& sought = e.summary.sought; sought && !sought->also.empty()) details.push_back(sought->also);
   if (const std::string direction = direction_of_limit(e.scene); !direction.empty())
     details.push_back(direction);
   if (shows_bracket(critical) || critical.value == 0.0)
     details.push_back(fmt::format("stands at {}, moves at {}", value_text(critical.stable, unit, 5),
                                   value_text(critical.moving, unit, 5)));
-  std::string name =
-      "Critical " + parameter_words(critical.parameter) + varied_joints(e.scene.analysis.limit);
+  std::string name = "Critical " + in_words(critical.parameter) + varied_joints(e.scene.analysis.limit);
   if (critical.parameter == "peak_stress") {
     name = "Least peak stress";
     details.emplace_back("no forces that balance the loads have less everywhere");
@@ -122,31 +110,15 @@ std::string command_for_margins(const Evaluation& e) {
                 : "cupola assess " + name;
 }
 
-/// "load: the structure moves at every value; 3 groups ..." without the parameter and the mechanism.
-std::string first_clause(const std::string& message) {
-  const size_t colon = message.find(": "), start = colon == std::string::npos ? 0 : colon + 2;
-  return message.substr(start, message.find("; ", start) - start);
+/// What a search ended with, if not with a value that counts.
+KeyNumber sought_answer(const Sought& sought) {
+  return {with_capital(sought.quantity), sought.found.empty() ? "unknown" : sought.found, clauses(sought)};
 }
 
-/// "no limit above 0.15" of "friction: no limit above 0.15: the structure stands ...".
-std::string lack_of_limit(const std::string& message) {
-  const std::string clause = first_clause(message);
-  return clause.starts_with("no limit") ? clause.substr(0, clause.find(": ")) : "not found";
-}
-
-std::string last_clause(const std::string& message) {
-  const size_t end = message.rfind("; ");
-  return message.substr(end == std::string::npos ? 0 : end + 2);
-}
-
-/// What the search for the least property of fresh mortar has found, if not a value of all stages.
-KeyNumber least_answer(const Evaluation& e) {
-  const std::string clause = last_clause(e.summary.message);
-  return {"Critical fresh " + std::string(to_string(e.scene.analysis.staged.least)),
-          clause.starts_with("every stage stands") ? "0"
-          : clause.starts_with("no fresh")         ? "none"
-                                                   : "unknown",
-          clause};
+/// True if the run searched for a value: of an equilibrium, or of a limit or stage whatever it does.
+bool searched(const Evaluation& e) {
+  return is_limit(e) || (e.scene.analysis.robustness > 0 && at_rest(e)) ||
+         (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none);
 }
 
 /// What the structure bears at the last equilibrium of a path that ends early.
@@ -196,9 +168,7 @@ std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_jo
 }  // namespace
 
 VerdictWords words_of_run(const Summary& summary) {
-  std::string words = words_of(summary);
-  words.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(words.front())));
-  return {words, stands(summary.status) && !summary.bears_loads_until_s};
+  return {with_capital(words_of(summary)), stands(summary.status) && !summary.bears_loads_until_s};
 }
 
 VerdictWords verdict_words(const Evaluation& e) {
@@ -234,22 +204,8 @@ KeyNumber margin_answer(const Evaluation& e) {
                 : fmt::format("any push towards {:.4g} degrees makes it move", robust->azimuth_deg)};
   if (e.scene.analysis.robustness > 0 && at_rest(e) && !e.summary.parts.empty())
     return {"Horizontal acceleration", "not computed", "not all parts stand"};
-  if (e.scene.analysis.robustness > 0 && at_rest(e)) {
-    const std::string clause = last_clause(e.summary.message);
-    return {"Horizontal acceleration", clause.starts_with("no horizontal") ? "no limit" : "unknown", clause};
-  }
-  const std::string of_limit =
-      parameter_words(to_string(e.scene.analysis.limit.parameter)) + varied_joints(e.scene.analysis.limit);
-  if (is_limit(e) && at_rest(e))
-    return {"Critical " + of_limit, stands(e.summary.status) ? lack_of_limit(e.summary.message) : "unknown",
-            e.summary.message.substr(e.summary.message.rfind(": ") + 2)};
-  if (is_limit(e) && moves(e.summary.status)) {
-    const std::string between = clause_of(e.summary.message, "it stands from ");
-    return {"Critical " + of_limit, between.empty() ? "none" : "not found",
-            first_clause(e.summary.message) + (between.empty() ? "" : "; " + between)};
-  }
-  if (is_stage(e.last.frame.role) && e.scene.analysis.staged.least != StagedConstruction::Least::none)
-    return least_answer(e);
+  if (e.summary.sought) return sought_answer(*e.summary.sought);
+  if (searched(e)) return {"Margin", "unknown", e.summary.message};  // by a version that had no such record
   if (!at_rest(e)) {
     const bool sought = e.scene.analysis.robustness > 0, staged = is_stage(e.last.frame.role);
     return {sought ? "Horizontal acceleration" : "Margin", falls(e.summary) ? "none" : "unknown",

@@ -33,9 +33,6 @@ std::string reason_for_verdict(const Evaluation& evaluation);
 /// By how much: the factor that this run computed, with what decides it, or the command that computes some.
 KeyNumber margin_answer(const Evaluation& evaluation);
 
-/// "joint extent": a parameter of a limit.
-std::string parameter_words(std::string parameter);
-
 /// ", 4.63 times what it needs" or " and bears 2 times as much". `factor`: of factor_of_safety().
 std::string distance_from_limit(double factor, const CriticalValue& critical);
 

@@ -1,12 +1,12 @@
 #include "postproc/report/first_screen.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/report/html.hpp"
@@ -19,11 +19,6 @@
 
 namespace cupola {
 namespace {
-
-std::string with_capital(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 
 /// "0.2202 to 32.62 MN": what the search proves, with ∞ where there is no limit and ? where it did not end.
 KeyNumber range_number_of(const ForceRange& range) {

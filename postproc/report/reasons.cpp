@@ -203,7 +203,7 @@ std::string limit_text(const Evaluation& e) {
   if (e.summary.friction_law == FrictionLaw::associated)
     text.insert(text.size() - 1, " (associated friction law)");
   return text + fmt::format(" Picture and thrust belong to the critical {}, not to the case.",
-                            parameter_words(critical.parameter));
+                            in_words(critical.parameter));
 }
 
 /// A limit: existence on one side is certain; what lies beyond is as certain as the run says.
@@ -222,7 +222,7 @@ std::string certain_of_limit(const Evaluation& e) {
                                                 critical.stable < critical.moving     ? "fall at a lower"
                                                 : critical.parameter == "peak_stress" ? "need a higher"
                                                                                       : "need more",
-                                                parameter_words(critical.parameter));
+                                                in_words(critical.parameter));
   return fmt::format(
       "{}: at {} forces balance the loads, whatever the stiffness of the joints and their history. Not "
       "certain: that it stands there under Coulomb's law, by which joints slide without opening{}. Assumed: "

@@ -1,7 +1,6 @@
 #include "postproc/report/report.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -221,9 +220,7 @@ std::string report_html(const ReportInput& input) {
   const Summary& s = e.summary;
   std::vector<std::string> quality = quality_sentences(e);
   if (e.last.joints.floor.force > 0.0) quality.push_back(floor_text(e));
-  std::string said = s.message;
-  if (!said.empty()) said[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(said[0])));
-  quality.insert(quality.begin(), said + ".");
+  quality.insert(quality.begin(), with_capital(s.message) + ".");
   if (at_rest(e)) quality.insert(quality.begin(), how_sure(e));
   body += list_section("How exact", quality);
   body += case_section(e);

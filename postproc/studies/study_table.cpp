@@ -52,14 +52,6 @@ std::vector<Quantity> quantities_of(const StudyColumn& column, const std::string
   return out;
 }
 
-/// "no limit" of "critical lantern: no limit: ..."; the whole message if it has no such part.
-std::string reason_of(const std::string& message) {
-  const size_t start = message.find(": ");
-  if (start == std::string::npos) return message;
-  const size_t end = std::min(message.find(": ", start + 2), message.find("; ", start + 2));
-  return message.substr(start + 2, end == std::string::npos ? end : end - start - 2);
-}
-
 double number_of(const StudyColumn& column, const std::string& run, RunCache& cache) {
   double number = evaluate(of_row(column.value, run), cache);
   if (column.over) number /= evaluate(of_row(*column.over, run), cache);
@@ -103,7 +95,7 @@ Table::Cell cell_of(const StudyColumn& column, const std::string& run, RunCache&
   } catch (const InputError&) {  // the run has no such number
   }
   const std::string name = of_row(column.value, run).runs.front();
-  return filled(*column.absent, "{reason}", reason_of(cache.run(name).message()));
+  return filled(*column.absent, "{reason}", cache.run(name).found_instead());
 }
 
 /// A cell of a CSV file: a number if it is one.

@@ -29,8 +29,8 @@ struct StudyColumn {
   std::optional<Quantity> over, minus;
   double scale = 1.0;  ///< from SI to the unit of the heading; -1 changes the sign
   int digits = 0;      ///< significant digits of the page; 0: those of the table
-  /// Cell of a run that lacks the number; {reason}: what the run's message says instead. Without it such a
-  /// run is an error.
+  /// Cell of a run that lacks the number; {reason}: what its search found instead, else its message.
+  /// Without it such a run is an error.
   std::optional<std::string> absent;
 };
 

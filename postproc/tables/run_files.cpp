@@ -106,6 +106,12 @@ std::string RunFiles::message() {
   return text_of_results("message");
 }
 
+std::string RunFiles::found_instead() {
+  const UnorderedJson* found = descend(summaries_->results_of(folder_), "sought.found");
+  return found && found->is_string() && found->get_ref<const std::string&>() != "" ? found->get<std::string>()
+                                                                                   : message();
+}
+
 std::string RunFiles::answer(const std::string& key) {
   if (!summaries_->answers) summaries_->answers = read_json(folder_ + "/post/answers.json");
   const UnorderedJson* text = descend(*summaries_->answers, key);

@@ -17,9 +17,11 @@ class RunFiles {
   explicit RunFiles(std::string folder);
   ~RunFiles();
 
-  std::string status();                 ///< of results/summary.json
-  std::string message();                ///< of results/summary.json: why the run ended with this status
-  std::vector<std::string> warnings();  ///< of post/summary.json, as its page shows them
+  std::string status();   ///< of results/summary.json
+  std::string message();  ///< of results/summary.json: why the run ended with this status
+  /// "no limit above 0.15": what the search of the run found instead of a value; else the message.
+  std::string found_instead();
+  std::vector<std::string> warnings();                  ///< of post/summary.json, as its page shows them
   std::string text_of_results(const std::string& key);  ///< of results/summary.json; InputError without it
   std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
   /// Text of post/answers.json, e.g. `verdict.words`; "" if the run has no such answer.

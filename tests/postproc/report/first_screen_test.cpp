@@ -54,25 +54,25 @@ TEST(FirstScreen, NegligibleJointsAreNeverTheWorst) {
   EXPECT_FALSE(worst_joints(joints).edge);
 }
 
-// What the search for the least property of fresh mortar ends with, if not a value of all stages.
+// A search for the least property of fresh mortar ends with words, or with a value that not all stages have.
 TEST(FirstScreen, AConstructionWithoutALeastPropertySaysWhy) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.summary.analysis = AnalysisType::staged;
   e.scene.analysis.staged.least = StagedConstruction::Least::cohesion;
-  const auto answer = [&e](Status status, FrameRole role, const char* clause) {
+  const auto answer = [&e](Status status, FrameRole role, const char* found) {
     e.summary.status = status;
     e.last.frame.role = role;
-    e.summary.message = std::string("stages that stand with the mortar of the case: 2 of 4; ") + clause;
+    e.summary.sought =
+        Sought{"critical fresh cohesion", found, "a clause (with another; and a third)", "", ""};
     const KeyNumber margin = margin_answer(e);
     EXPECT_EQ(margin.name, "Critical fresh cohesion");
-    EXPECT_EQ(margin.detail, clause);
+    EXPECT_EQ(margin.detail, "a clause (with another; and a third)");
     return margin.value;
   };
-  EXPECT_EQ(answer(Status::moving, FrameRole::failed_stage, "no fresh cohesion up to 1 MPa holds stage 3"),
-            "none");
-  EXPECT_EQ(answer(Status::stable, FrameRole::stage, "every stage stands without fresh cohesion"), "0");
-  EXPECT_EQ(answer(Status::stable, FrameRole::stage, "the least fresh cohesion of stage 3 was not found"),
-            "unknown");
+  EXPECT_EQ(answer(Status::moving, FrameRole::failed_stage, "none"), "none");
+  EXPECT_EQ(answer(Status::stable, FrameRole::stage, "0"), "0");
+  e.summary.critical = CriticalValue{"fresh cohesion", 1e4, 1e4, 0.99e4};
+  EXPECT_EQ(answer(Status::unconverged, FrameRole::stage, ""), "unknown");
 }
 
 // The case may have asked for it: cohesion requires compliance per area.

@@ -9,40 +9,44 @@
 namespace cupola::limit_answers_test {
 namespace {
 
-TEST(LimitAnswers, TheMarginSaysWhatWasLookedForInVain) {
+// The words are those of the record; without a found value or word nothing counts.
+TEST(LimitAnswers, TheMarginSaysWhatWasSoughtAndFound) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.summary.analysis = AnalysisType::limit;
-  e.scene.analysis.limit.parameter = LimitSearch::Parameter::acceleration;
-  const auto margin = [&](Status status, const std::string& reason) {
-    e.summary.status = status;
-    e.summary.message = "acceleration: " + reason;
-    return margin_answer(e);
-  };
   const std::string both = "the structure stands at both ends of the bracket";
-  const KeyNumber range = margin(Status::stable, "no limit from 0 to 0.02: " + both + "; widen it");
-  EXPECT_EQ(range.name, "Critical acceleration");
-  EXPECT_EQ(range.value, "no limit from 0 to 0.02");
-  EXPECT_EQ(range.detail, both + "; widen it");
-  EXPECT_EQ(margin(Status::stable, "no limit: the structure stands at 0 and at every higher value").value,
-            "no limit");
-  EXPECT_EQ(margin(Status::stable, both + ", 0.01 and 1; widen the bracket").value, "not found");
-  EXPECT_EQ(margin(Status::unconverged, both + ", 0.01 and 1; widen the bracket").value, "unknown");
+  e.summary.sought = Sought{"critical acceleration", "no limit from 0 to 0.02", both, "widen it", ""};
+  EXPECT_EQ(margin_answer(e).name, "Critical acceleration");
+  EXPECT_EQ(margin_answer(e).value, "no limit from 0 to 0.02");
+  EXPECT_EQ(margin_answer(e).detail, both + "; widen it");
+  e.summary.sought->found = "";
+  e.summary.sought->also = "the case itself stands";
+  EXPECT_EQ(margin_answer(e).value, "unknown");
+  EXPECT_EQ(margin_answer(e).detail, both + "; widen it; the case itself stands");
+}
+
+// Summaries of earlier versions have no record.
+TEST(LimitAnswers, WithoutARecordTheMessageSaysWhatWasFound) {
+  Evaluation e = test::column_evaluation(0.6, 0.4);
+  e.summary.analysis = AnalysisType::limit;
+  e.summary.message = "friction: no limit above 0.15: the structure stands at every value from 0.15 to 0.9";
+  for (const FrameRole role : {FrameRole::equilibrium, FrameRole::mechanism, FrameRole::unconverged}) {
+    e.last.frame.role = role;
+    EXPECT_EQ(margin_answer(e).name, "Margin");
+    EXPECT_EQ(margin_answer(e).value, "unknown");
+    EXPECT_EQ(margin_answer(e).detail, e.summary.message);
+  }
 }
 
 // A search for accelerations says what it found: none that moves it, none that it bears, or nothing.
 TEST(LimitAnswers, ASearchForAccelerationsSaysWhatItFound) {
   Evaluation e = test::column_evaluation(0.6, 0.4);
   e.scene.analysis.robustness = 8;
-  const std::string rest = e.summary.message;
-  const auto answer = [&](const char* clause) {
-    e.summary.message = rest + "; " + clause;
-    const KeyNumber margin = margin_answer(e);
-    EXPECT_EQ(margin.name, "Horizontal acceleration");
-    EXPECT_EQ(margin.detail, clause);
-    return margin.value;
-  };
-  EXPECT_EQ(answer("no horizontal acceleration in 8 directions makes it move"), "no limit");
-  EXPECT_EQ(answer("8 of 8 horizontal directions are undecided"), "unknown");
+  e.summary.sought =
+      Sought{"horizontal acceleration", "no limit", "no horizontal acceleration makes it move", "", ""};
+  EXPECT_EQ(margin_answer(e).name, "Horizontal acceleration");
+  EXPECT_EQ(margin_answer(e).value, "no limit");
+  EXPECT_EQ(margin_answer(e).detail, "no horizontal acceleration makes it move");
+  e.summary.sought->found = "";
   e.summary.robustness = Robustness{8, 0.0, 1e-8, 45.0};
   EXPECT_EQ(margin_answer(e).value, "0 g");
   EXPECT_EQ(margin_answer(e).detail, "any push towards 45 degrees makes it move");
@@ -53,6 +57,7 @@ TEST(LimitAnswers, ASearchForAccelerationsSaysWhatItFound) {
       margin_answer(e).detail,
       "borne in the weakest of 7 directions, towards 90 degrees; 1 of 8 is undecided and may be weaker");
   e.summary.robustness.reset();
+  e.summary.sought.reset();
   e.summary.parts = {{1, 2, Status::stable}, {3, 1, Status::moving}};
   EXPECT_EQ(margin_answer(e).value, "not computed") << "of what stands in part";
   EXPECT_EQ(margin_answer(e).detail, "not all parts stand");
@@ -118,11 +123,6 @@ TEST(LimitAnswers, NamesTheJointsWhoseFrictionItVaries) {
   EXPECT_NE(certain_sentence(e).find("a coefficient of friction of 0.6 of the other joints"),
             std::string::npos)
       << certain_sentence(e);
-  e.scene.analysis.limit.joints = RingJoints{0, 4, RingJoints::Sort::all, {}};
-  e.summary.critical.reset();
-  e.summary.status = Status::stable;
-  e.summary.message = "friction: no limit: the structure stands with a friction of 1e-05, as good as none";
-  EXPECT_EQ(margin_answer(e).name, "Critical friction of the joints of courses 0 to 4");
 }
 
 // Joints that pull may bear less with more friction: a block on a slope that two values hold falls beyond the
@@ -152,7 +152,8 @@ TEST(LimitAnswers, ALimitAtZeroHasTheWidthThatWasReached) {
 // Loads that a structure needs can also be too large.
 TEST(LimitAnswers, ALeastLoadNamesTheLargestOneToo) {
   Evaluation e = limit_of(LimitSearch::Parameter::load, 0.0, 0.0366, 0.0365);
-  e.summary.message = "critical load factor: 0.0366; it moves again beyond 1.2418; 5 groups of blocks move";
+  e.summary.sought =
+      Sought{"critical load", "", "an admissible state at 0.0366", "", "it moves again beyond 1.2418"};
   EXPECT_NE((margin_answer(e).detail + ";").find("; it moves again beyond 1.2418;"), std::string::npos)
       << margin_answer(e).detail;
 }
@@ -163,9 +164,9 @@ TEST(LimitAnswers, WhatStandsBetweenTwoValuesOnlyHasBoth) {
   e.summary.critical.reset();
   e.summary.status = Status::moving;
   e.last.frame.role = FrameRole::mechanism;
-  e.summary.message =
-      "acceleration: the structure moves at both ends of the bracket, 0 and 1; it must stand at one; it "
-      "stands from 0.3333 up to 0.6667; 1 group of blocks moves";
+  e.summary.sought =
+      Sought{"critical acceleration", "not found", "the structure moves at both ends of the bracket, 0 and 1",
+             "", "it stands from 0.3333 up to 0.6667"};
   EXPECT_EQ(margin_answer(e).value, "not found");
   EXPECT_TRUE(margin_answer(e).detail.ends_with("0 and 1; it stands from 0.3333 up to 0.6667"))
       << margin_answer(e).detail;
@@ -181,10 +182,13 @@ TEST(LimitAnswers, AThicknessThatMissedItsWidthIsUndecided) {
 TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
   Evaluation e = limit_of(LimitSearch::Parameter::joint_extent, 0.0, 0.055, 0.054);
   e.summary.status = Status::unconverged;
-  e.summary.message = "joint_extent: forces that do not balance the loads at 0.055";
+  e.summary.sought =
+      Sought{"critical joint extent", "", "forces that do not balance the loads at 0.055", "", ""};
   EXPECT_FALSE(factor_of_safety(e.scene, e.summary));
   EXPECT_EQ(verdict_words(e).words, "Undecided");
+  EXPECT_EQ(margin_answer(e).name, "Critical joint extent");
   EXPECT_EQ(margin_answer(e).value, "unknown");
+  EXPECT_EQ(margin_answer(e).detail, "forces that do not balance the loads at 0.055");
   EXPECT_EQ(reason_for_verdict(e).find("shrink"), std::string::npos) << reason_for_verdict(e);
   EXPECT_TRUE(certain_sentence(e).starts_with("Nothing is certain")) << certain_sentence(e);
 }

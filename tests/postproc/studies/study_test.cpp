@@ -12,14 +12,14 @@
 namespace cupola::study_test {
 namespace {
 
-/// Writes a finished run.
+/// Writes a finished run, of a search that found no limit.
 void write_run(const ScratchFolder& scratch, const std::string& name, const std::string& status, double x,
                const std::string& version = "0.3 (abc)") {
-  scratch.write(
-      name + "/results/summary.json",
-      "{\"status\": \"" + status +
-          "\", \"message\": \"critical lantern: no limit: it stands\", \"x\": " + std::to_string(x) +
-          ", \"program_version\": \"" + version + "\", \"text_files\": {\"history.csv\": \"\"}}");
+  scratch.write(name + "/results/summary.json", "{\"status\": \"" + status +
+                                                    "\", \"message\": \"lantern: no limit: it stands\", "
+                                                    "\"sought\": {\"found\": \"no limit\"}, \"x\": " +
+                                                    std::to_string(x) + ", \"program_version\": \"" +
+                                                    version + "\", \"text_files\": {\"history.csv\": \"\"}}");
   scratch.write(name + "/results/history.csv", "time_s,moved_m\n0,0\n1,0.4\n2,0.6\n3,0.9\n");
   scratch.write(name + "/results/run.yaml", "joints:\n  friction: 0.4\n");
   scratch.write(name + "/post/summary.json", "{\"y\": 4}");
