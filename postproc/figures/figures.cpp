@@ -48,8 +48,8 @@ Figure ring_figure(const Evaluation& e) {
   f.title = vault ? "Rings over the height" : "Courses over the height";
   f.caption = fmt::format(
       "Left: how much the pressure on the beds of a {} varies from block to block (coefficient of "
-      "variation). Right: the "
-      "largest friction and kern use of a bed joint; beyond a kern use of 1, part of the joint is unloaded.",
+      "variation). Right: the largest friction and kern use of a bed joint; beyond a kern use of 1, part of "
+      "the joint is unloaded or pulls.",
       vault ? "ring" : "course");
   f.width = 1000;
   f.height = 420;

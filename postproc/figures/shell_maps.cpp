@@ -138,8 +138,8 @@ Figure utilisation_map(const ShellMap& map, const MapScales& scales) {
   f.title = fmt::format("Utilisation of the joints over the {}", mapped_text(map));
   f.caption =
       "Largest friction use of the joints of each block (100 %: the joint slides), and largest "
-      "kern use of its bed joints (above 1: part of the joint is unloaded). Grey: no such joint carries more "
-      "than a negligible force.";
+      "kern use of its bed joints (above 1: part of the joint is unloaded or pulls). Grey: no such joint "
+      "carries more than a negligible force.";
   std::vector<std::string> panels;
   if (scales.friction > 0.0)
     panels.push_back(panel(

@@ -123,7 +123,7 @@ std::vector<std::string> finding_sentences(const Evaluation& e) {
             ? std::string("The bed forces act at the centres of the beds: their mean eccentricity is "
                           "negligible.")
             : fmt::format("The mean eccentricity of the bed forces is {:.2f} of the distance to the edge of "
-                          "the kern. Where it exceeds 1, part of the joint is unloaded.",
+                          "the kern. Where it exceeds 1, part of the joint is unloaded or pulls.",
                           *s.mean_kern_use));
   if (s.max_displacement_m)
     out.push_back(fmt::format(

@@ -47,11 +47,15 @@ std::string at_rest_html(const Evaluation& e) {
   }
   if (worst.edge && e.last.joints.wrenches[*worst.edge].kern != 0.0) {  // NaN on a line
     const JointWrench& j = e.last.joints.wrenches[*worst.edge];
-    const bool on_edge = j.edge_distance <= 1e-3 * std::sqrt(j.patch.area);
-    out += fmt::format("<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
-                       joint_link(e, *worst.edge), html_text(force_text(j.wrench.force.norm())),
-                       on_edge ? "on the edge" : length_text(j.edge_distance) + " from the edge",
-                       j.kern > 1.0 ? ", outside the kern, so that a part of the joint is unloaded" : "");
+    const double distance = std::abs(j.edge_distance);
+    const bool on_edge = distance <= 1e-3 * std::sqrt(j.patch.area),
+               beyond = j.edge_distance < 0.0;  // pulled
+    const char* part = std::isnan(j.strength_use) ? "unloaded" : "unloaded or pulls";
+    out += fmt::format(
+        "<li>{} is the nearest to opening as a hinge: its force of {} acts {}{}.</li>\n",
+        joint_link(e, *worst.edge), html_text(force_text(j.wrench.force.norm())),
+        on_edge ? "on the edge" : length_text(distance) + (beyond ? " beyond" : " from") + " the edge",
+        j.kern > 1.0 ? fmt::format(", outside the kern, so that a part of the joint is {}", part) : "");
   }
   const bool ideal = std::ranges::all_of(e.last.joints.wrenches, [&](const JointWrench& j) {
     return j.negligible || (j.kern == 0.0 && !uses_friction(e, j));

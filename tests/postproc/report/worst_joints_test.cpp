@@ -44,6 +44,35 @@ TEST(WorstJoints, ALineThatCarriesIsAHinge) {
   EXPECT_NE(html.find("acts on the edge.<"), std::string::npos) << html;
 }
 
+// Two corners of every bed pull with a seventh of what the others press: the force is 0.2 m beyond their edge.
+TEST(WorstJoints, AForceBeyondTheEdgeUnloadsNoJointThatPulls) {
+  const Assembly a = test::column(3);
+  const auto html = [&a](double pull) {
+    Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.0, 0.4);
+    ContactTable& contacts = frame.contacts;
+    if (pull > 0.0)
+      contacts.friction_limit = contacts.strength_use = contacts.damage = contacts.crack_opening =
+          contacts.gap;
+    for (int i = 0; i < contacts.size(); ++i) {
+      if (contacts.normal_force[i] != 0.0) continue;
+      contacts.normal_force[i] = -pull * contacts.normal_force[i ^ 1];
+      contacts.force[i] = contacts.normal_force[i] * contacts.normal[i];
+    }
+    const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                         test::fresh_folder("results"));
+    return worst_joints_html(e);
+  };
+  const std::string dry = html(0.0), pulled = html(1.0 / 7.0);
+  EXPECT_NE(dry.find("acts on the edge, outside the kern, so that a part of the joint is unloaded."),
+            std::string::npos)
+      << dry;
+  EXPECT_NE(
+      pulled.find("acts 200 mm beyond the edge, outside the kern, so that a part of the joint is unloaded "
+                  "or pulls."),
+      std::string::npos)
+      << pulled;
+}
+
 // The force of a long joint may be near its edge and central: a third of the kern of a strip of 1 m by 0.1 m.
 // That at three quarters of half the width of a square is farther from the edge, and outside the kern.
 TEST(WorstJoints, AreNearAHingeByTheKern) {
