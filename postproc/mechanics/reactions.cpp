@@ -92,7 +92,10 @@ std::vector<Reaction> support_reactions(const Assembly& assembly, const JointWre
     reaction.force += a_fixed ? Vec3(-tie_force_on_b(ties, i)) : tie_force_on_b(ties, i);
   }
   std::vector<Reaction> reactions;
-  for (const auto& [block, reaction] : found) reactions.push_back(reaction);
+  for (auto& [block, reaction] : found) {
+    reaction.outward = above(reaction.outward, joints.floor.force);
+    reactions.push_back(reaction);
+  }
   return reactions;
 }
 

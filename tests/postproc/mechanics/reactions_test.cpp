@@ -77,6 +77,20 @@ TEST(Reactions, LengthIsThatAtTheEndOfACutCourse) {
   }
 }
 
+// The thrust of a pier between two equal spans is what rounding leaves of two that cancel.
+TEST(Reactions, OutwardForcesOfRoundingAreNone) {
+  Assembly a = test::column(3);
+  a.sheets = {{"vault", 0, 3, true, Sheet::ThrustLines::by_azimuth}};
+  const Shell shell = shell_of(a, Vec3::UnitZ());
+  const auto outward = [&](double push) {  // N, of each corner away from the axis at the origin
+    ContactTable contacts = test::column_at_rest(a, kGravity, 0.0, 0.6, 0.4).contacts;
+    for (Vec3& force : contacts.force) force -= push * Vec3(0.6, 0.4, 0.0).normalized();
+    return support_reactions(a, joint_wrenches(a, contacts, shell), shell).at(0).outward;
+  };
+  EXPECT_EQ(outward(1e-12), 0.0);
+  EXPECT_NEAR(outward(1e3), 4e3, 1e-9) << "rounding of sums";
+}
+
 // A tie of 1 kN from block 2 down to the support pulls it up, and another, from block 3 to an anchor without
 // joints, pulls that; a restraint, which follows the ties, pushes on the ground.
 TEST(Reactions, CountTheTiesOfTheSupports) {
