@@ -179,11 +179,12 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
     force += joint.normal_force;
   }
   if (force > 0.0) s->mean_kern_use = above(kern / force, e.last.joints.floor.share);
-  s->crack_length_m = 0.0;
-  for (const Crack& crack : e.joint_cracks) *s->crack_length_m += crack.extent;
   if (!is_rigid(e) && !supports_have_not_moved(e)) {
-    s->widest_crack_m = 0.0;
-    for (const Crack& crack : e.joint_cracks) raise(&s->widest_crack_m, crack.widest_gap);
+    s->crack_length_m = s->widest_crack_m = 0.0;
+    for (const Crack& crack : e.joint_cracks) {
+      *s->crack_length_m += crack.extent;
+      raise(&s->widest_crack_m, crack.widest_gap);
+    }
   }
   if (!e.scene.analysis.plane)  // where no couple turns about the force
     for (const BlockFields& f : e.last.fields) raise(&s->largest_couple_length_m, f.couple_length);

@@ -48,15 +48,15 @@ TEST(Cracks, AreOpenUpToForcesOfRounding) {
   EXPECT_EQ(cracks_of(e.last.frame.contacts, e.last.joints).size(), 3u);
 }
 
-// The joints of a limit are rigid: gaps of its mechanism are no widths.
-TEST(Cracks, HaveNoWidthInALimit) {
+// The joints of a limit are rigid: gaps of its mechanism are no cracks, and the direct method has none.
+TEST(Cracks, HaveNoLengthAndWidthInALimit) {
   const Assembly a = test::column(3);
   Summary summary = test::column_summary(a);
   summary.analysis = AnalysisType::limit;
   const Evaluation e =
       test::evaluated(a, {hinged(2e-3)}, summary, test::column_case(), test::fresh_folder("results"));
   ASSERT_TRUE(at_rest(e));
-  EXPECT_NEAR(post_summary(e).crack_length_m.value(), 2.4, 1e-12);
+  EXPECT_FALSE(post_summary(e).crack_length_m);
   EXPECT_FALSE(post_summary(e).widest_crack_m);
 }
 
@@ -92,6 +92,21 @@ TEST(Cracks, AreNotTheElasticElongationOfAJoint) {
   EXPECT_TRUE(cracks_of(contacts, e.last.joints).empty());
   contacts.crack_opening = contacts.gap;
   EXPECT_EQ(cracks_of(contacts, e.last.joints).size(), 3u);
+}
+
+// Softening or plastic, a joint that is open beyond its elastic elongation is cracked while it still pulls.
+TEST(Cracks, MayStillPull) {
+  Frame frame = hinged(2e-3);
+  ContactTable& contacts = frame.contacts;
+  contacts.friction_limit = contacts.strength_use = contacts.damage = contacts.crack_opening = contacts.gap;
+  for (int i = 0; i < contacts.size(); ++i)
+    if (contacts.gap[i] > 0.0) contacts.normal_force[i] = -1e3;
+  const Assembly a = test::column(3);
+  const Evaluation e = test::evaluated(a, {frame}, test::column_summary(a), test::column_case(),
+                                       test::fresh_folder("results"));
+  ASSERT_EQ(e.joint_cracks.size(), 3u);
+  for (const Crack& crack : e.joint_cracks) EXPECT_EQ(crack.widest_gap, 2e-3);
+  for (const JointWrench& joint : e.last.joints.wrenches) EXPECT_EQ(joint.open_share, 0.0) << "it is loaded";
 }
 
 // The opening of a joint and of the blocks beside it is that of its crack: faces that were crushed by 1 mm are
