@@ -81,23 +81,22 @@ Figure certainty_map(const Evaluation& e, const ShellMap& shell) {
 Figure crack_map(const Evaluation& e, const ShellMap& shell) {
   JointMap map(shell);
   JointMap::Rows joints;
-  double length = 0.0, widest = 0.0;
+  double widest = 0.0;
   int cracks = 0;
   for (const Crack& crack : e.joint_cracks) {
     const JointWrench& joint = e.last.joints.wrenches[crack.joint];
     if (!map.has(e.shell, {joint.block_a, joint.block_b})) continue;
     ++cracks;
     map.add({joint.block_a, joint.block_b}, 1e3 * crack.widest_gap, &joints);
-    length += crack.extent;
     widest = std::max(widest, crack.widest_gap);
   }
   Figure f;
   f.name = fmt::format("map_cracks{}", shell.suffix());
   f.title = fmt::format("Open joints over the {}", mapped_text(shell));
   f.caption = fmt::format(
-      "The joints that are open, at least in part, coloured by their largest gap. The open parts of {} "
-      "extend over {} in total; the widest gap is {}.",
-      counted(cracks, "joint"), length_text(length), length_text(widest));
+      "The joints that are open, at least in part, coloured by their largest gap: {} in all, the widest by "
+      "{}.",
+      counted(cracks, "joint"), length_text(widest));
   f.width = 1100;
   f.height = 640;
   f.vector = map.is_small();
