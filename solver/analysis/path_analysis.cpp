@@ -232,11 +232,14 @@ void PathRun::judge(double started) {
   const Vec3 along = (1e3 * control_.direction).array().round() / 1e3 + 0.0;  // no -0
   const std::string chosen =
       options_.control ? "" : fmt::format(", chosen, along ({:g}, {:g}, {:g})", along[0], along[1], along[2]);
+  const bool no_load = has_free_control() && progress_.largest_force == 0.0;  // supports or heat alone
   const std::string largest =
-      fmt::format("largest {} {:.6g} N at {:.6g} {} (block {}{})",
-                  has_free_control() ? "added load" : "force", progress_.largest_force,
-                  options_.length ? progress_.displacement_of_largest : progress_.time_of_largest,
-                  options_.length ? "m" : "s", block_label(*model_.assembly, control_.block), chosen);
+      no_load
+          ? "no load was added"
+          : fmt::format("largest {} {:.6g} N at {:.6g} {} (block {}{})",
+                        has_free_control() ? "added load" : "force", progress_.largest_force,
+                        options_.length ? progress_.displacement_of_largest : progress_.time_of_largest,
+                        options_.length ? "m" : "s", block_label(*model_.assembly, control_.block), chosen);
   const std::string reached = options_.length ? fmt::format("{:.6g} m, at {:.4g} s of {:g} s", displacement(),
                                                             path_.value(), options_.end)
                                               : fmt::format("{:.6g} s", path_.value());

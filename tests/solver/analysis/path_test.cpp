@@ -316,6 +316,10 @@ TEST(Path, TheForceOfAFreeControlIsTheLoadAdded) {
     EXPECT_NEAR(result.rows[k][2], 500.0 * static_cast<double>(k), 1e-6) << "digits of path.csv";
   EXPECT_NE(result.summary.message.find("largest added load 1000 N at 1 s"), std::string::npos)
       << result.summary.message;
+  scene.loads.forces.back().time = {};  // on it from the start
+  scene.analysis.path.control = LoadPath::Control{BlockRef{1}, {}, -Vec3::UnitZ()};
+  const std::string message = run(scene, testing::box_on_floor({1, 1, 1})).summary.message;
+  EXPECT_TRUE(message.ends_with("; no load was added")) << message;
 }
 
 }  // namespace
