@@ -6,8 +6,8 @@
 
 namespace cupola {
 
-/// The open part of a joint: the hull of its contact points that carry no force above the floor and have a
-/// gap above the floor of lengths.
+/// The open part of a joint: the hull of its contact points that do not press and are open by more than the
+/// floor of lengths, with strength beyond their elastic elongation. A crack may still pull, as in softening.
 struct Crack {
   int joint = 0;            ///< index into JointWrenches::wrenches
   PlanarHull open;          ///< an area, a line or a point

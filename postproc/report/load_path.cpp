@@ -22,7 +22,7 @@ std::vector<Table::Column> path_columns() {
       {"dissipated_J", "J",
        "in joints and ties since the start: friction, tension, cohesion, crushing and yielding"},
       {"mean_damage", "", "lost share of tension and cohesion, mean over the area of all joints"},
-      {"widest_gap_m", "m", "widest gap of an open joint"}};
+      {"widest_gap_m", "m", "widest opening of a joint: gap, or crack where joints have strength"}};
 }
 
 Table path_table(const CsvFile& csv) {
