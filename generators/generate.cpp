@@ -265,6 +265,7 @@ Assembly generate(const Case& input, GenerateReport* report) {
     if (is_assembly_file(*geometry.imported)) return assembly_again(input, report);
     report->import.emplace();
     Assembly assembly = import_blocks(*geometry.imported, input.material.density(), &*report->import);
+    refuse_all_fixed(*geometry.imported, assembly);
     if (!report->import->uses_material) refuse_material(input);
     if (geometry.imperfections) vary_density(*geometry.imperfections, &assembly);
     assembly.title = input.title;
@@ -277,7 +278,10 @@ Assembly generate(const Case& input, GenerateReport* report) {
                       report->import->origins);
     };
     check();
-    if (fix_ends(*geometry.imported, report->model.joint_faces, &assembly) > 0) check();
+    if (fix_ends(*geometry.imported, report->model.joint_faces, &assembly) > 0) {
+      refuse_all_fixed(*geometry.imported, assembly);
+      check();
+    }
     report->import->courses = set_courses(report->model.joint_faces, report->import->course_numbers,
                                           geometry.imported->axis, &assembly);
     refuse_keys_without_effect(input, assembly);

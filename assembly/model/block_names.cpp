@@ -71,16 +71,6 @@ std::vector<BlockRef*> pointers_to(std::vector<BlockRef>* blocks) {
   return pointers;
 }
 
-/// How far a point lies outside the faces of a convex part, m; negative inside.
-double distance_outside(const Assembly& assembly, const Part& part, const Vec3& point) {
-  double outside = -std::numeric_limits<double>::infinity();
-  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-    const auto plane = polygon_plane(face_points(assembly, f));
-    outside = std::max(outside, plane.normal.dot(point) - plane.offset);
-  }
-  return outside;
-}
-
 /// The blocks that a quantity names.
 std::vector<BlockRef*> blocks_of(ForceQuantity* quantity) {
   std::vector<BlockRef*> blocks;
@@ -103,7 +93,7 @@ int block_at(const Assembly& assembly, const Vec3& point, const std::string& key
   int nearest = -1;
   double least = std::numeric_limits<double>::infinity();
   for (const Part& part : assembly.parts) {
-    const double outside = distance_outside(assembly, part, point);
+    const double outside = distance_from_part(assembly, part, point);
     if (assembly.blocks[part.block].fixed || outside >= least) continue;
     least = outside;
     nearest = part.block;

@@ -71,6 +71,7 @@ std::vector<RawBlock> read_bricks(const std::string& path) {
   while (lines.next()) {
     const size_t num_words = lines.words().size();
     lines.enter(fmt::format("block {}", lines.words()[0]));
+    if (lines.words()[0].empty()) lines.fail("the first column, its ID, is empty");
     if (num_words < kFirstCoordinate)
       lines.fail(fmt::format("the row has {}, at least {} are required", counted(num_words, "value"),
                              kFirstCoordinate));
@@ -95,9 +96,9 @@ std::vector<RawTie> read_springs(const std::string& path) {
     RawTie tie = tie_of_row(lines, 11);
     tie.stiffness = lines.number(9);
     tie.length = lines.number(10);
-    if (tie.stiffness <= 0.0 || tie.length < 0.0)
+    if (tie.stiffness <= 0.0 || tie.length <= 0.0)
       lines.fail(
-          fmt::format("k = {}, L0 = {}: a spring requires k > 0 and L0 >= 0", tie.stiffness, tie.length));
+          fmt::format("k = {}, L0 = {}: a spring requires k > 0 and L0 > 0", tie.stiffness, tie.length));
     ties.push_back(tie);
   }
   return ties;

@@ -112,12 +112,13 @@ std::vector<RawBlock> read_compas(const std::string& path) {
     RawBlock block{name, here, {}, {}, false, {}};
     block.mesh = read_mesh_of(descend(node, {"block", "data"}, here, what), here, what);
     if (block.mesh.faces.empty()) throw InputError(here, fmt::format("{}: no faces", what));
-    const auto support = node.find("is_support");
-    block.fixed = support != node.end() && support->is_boolean() && support->get<bool>();
-    const auto density = node.find("density");
-    if (density != node.end() && density->is_number() && density->get<double>() > 0.0)
+    block.fixed = support_in(node, here, what).value_or(false);
+    if (const Json* density = attribute_of(node, "density")) {
+      if (!density->is_number() || !(density->get<double>() > 0.0))
+        throw InputError(here, fmt::format("{}: density = {}: must be a number > 0", what, density->dump()));
       block.density = density->get<double>();
-    block.course = course_in(node);
+    }
+    block.course = course_in(node, here, what);
     blocks.push_back(std::move(block));
   }
   return blocks;

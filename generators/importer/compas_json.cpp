@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -39,12 +38,6 @@ bool is_whole_number(const std::string& key) {
   return !key.empty() && std::ranges::all_of(key, [](unsigned char c) { return std::isdigit(c); });
 }
 
-bool says_support(const Json& node) {
-  if (!node.is_object()) return false;
-  const auto flag = node.find("is_support");
-  return flag != node.end() && flag->is_boolean() && flag->get<bool>();
-}
-
 /// A file that is read, and what its innermost element says about the meshes in it.
 struct Walk {
   FileLocation where;
@@ -57,19 +50,18 @@ struct Walk {
   std::optional<int> course;
 };
 
-/// The course of the mesh, from where is_support() looks.
-std::optional<int> course_of(const Json& data, const Walk& walk) {
-  std::optional<int> course = walk.course;
-  if (const auto attributes = data.find("attributes"); !course && attributes != data.end())
-    course = course_in(*attributes);
-  if (!course && walk.nodes && walk.nodes->contains(walk.key)) course = course_in((*walk.nodes)[walk.key]);
-  return course;
-}
-
-bool is_support(const Json& data, const Walk& walk) {
-  const auto attributes = data.find("attributes");
-  return walk.support || (attributes != data.end() && says_support(*attributes)) ||
-         (walk.nodes && walk.nodes->contains(walk.key) && says_support((*walk.nodes)[walk.key]));
+/// Adds what the attributes of the mesh and its node in a separate graph state to what the element does.
+void add_attributes(const Json& data, const Walk& walk, RawBlock* block) {
+  const std::string what = fmt::format("block {}", block->name);
+  block->fixed = walk.support;
+  block->course = walk.course;
+  const bool has_node = walk.nodes && walk.nodes->contains(walk.key);
+  for (const Json* holder :
+       {attribute_of(data, "attributes"), has_node ? &(*walk.nodes)[walk.key] : nullptr}) {
+    if (!holder) continue;
+    block->fixed = block->fixed || support_in(*holder, walk.where, what).value_or(false);
+    if (!block->course) block->course = course_in(*holder, walk.where, what);
+  }
 }
 
 void add_mesh(const Json& node, const Json& data, Walk* walk) {
@@ -81,9 +73,9 @@ void add_mesh(const Json& node, const Json& data, Walk* walk) {
   if (name.empty() || !walk->names.insert(name).second)
     name = fmt::format("{}_{}", walk->stem, walk->blocks.size());
   walk->names.insert(name);
-  RawBlock block{name, walk->where, {}, {}, is_support(data, *walk), {}};
+  RawBlock block{name, walk->where, {}, {}, false, {}};
   block.mesh = read_mesh_of(data, walk->where, fmt::format("block {}", name));
-  block.course = course_of(data, *walk);
+  add_attributes(data, *walk, &block);
   if (block.mesh.faces.empty()) throw InputError(walk->where, fmt::format("block {}: no faces", name));
   walk->blocks.push_back(std::move(block));
 }
@@ -119,9 +111,9 @@ void find_meshes(const Json& node, Walk* walk) {
   const bool outer = walk->support;
   const std::optional<int> outer_course = walk->course;
   const std::string outer_key = walk->key;
-  if (const auto flag = node.find("is_support"); flag != node.end() && flag->is_boolean())
-    walk->support = flag->get<bool>();
-  if (const std::optional<int> course = course_in(node)) walk->course = course;
+  const std::string what = fmt::format("element {}", walk->key);
+  walk->support = support_in(node, walk->where, what).value_or(outer);
+  if (const std::optional<int> course = course_in(node, walk->where, what)) walk->course = course;
   std::vector<std::string> keys;
   for (const auto& [key, child] : node.items()) keys.push_back(key);
   std::ranges::sort(keys, {}, [](const std::string& key) {
@@ -156,13 +148,27 @@ const Json& descend(const Json& node, std::initializer_list<const char*> keys, c
   return *here;
 }
 
-std::optional<int> course_in(const Json& attributes) {
-  if (!attributes.is_object()) return std::nullopt;
-  const auto number = attributes.find("course");
-  if (number == attributes.end() || !number->is_number_integer() || number->get<std::int64_t>() < 0 ||
-      number->get<std::int64_t>() > std::numeric_limits<int>::max())
-    return std::nullopt;
-  return number->get<int>();
+const Json* attribute_of(const Json& node, const char* key) {
+  if (!node.is_object()) return nullptr;
+  const auto value = node.find(key);
+  return value == node.end() || value->is_null() ? nullptr : &*value;
+}
+
+std::optional<bool> support_in(const Json& attributes, const FileLocation& where, const std::string& what) {
+  const Json* flag = attribute_of(attributes, "is_support");
+  if (!flag) return std::nullopt;
+  if (!flag->is_boolean())
+    throw InputError(where, fmt::format("{}: is_support = {}: must be true or false", what, flag->dump()));
+  return flag->get<bool>();
+}
+
+std::optional<int> course_in(const Json& attributes, const FileLocation& where, const std::string& what) {
+  const Json* course = attribute_of(attributes, "course");
+  if (!course) return std::nullopt;
+  const double number = course->is_number() ? course->get<double>() : 0.5;
+  if (std::abs(number) > std::numeric_limits<int>::max() || number != std::floor(number))
+    throw InputError(where, fmt::format("{}: course = {}: must be a whole number", what, course->dump()));
+  return number < 0.0 ? std::nullopt : std::optional(static_cast<int>(number));
 }
 
 PolygonMesh read_mesh_of(const Json& data, const FileLocation& where, const std::string& block) {

@@ -21,8 +21,14 @@ int line_of(const std::string& text, size_t byte);
 const Json& descend(const Json& node, std::initializer_list<const char*> keys, const FileLocation& where,
                     const std::string& what);
 
-/// The number of the course that the attributes of a block state, at least 0.
-std::optional<int> course_in(const Json& attributes);
+/// The value of an attribute; null if it is missing or null in the file.
+const Json* attribute_of(const Json& node, const char* key);
+
+/// `is_support`, true or false; none without it. Throws InputError for another value.
+std::optional<bool> support_in(const Json& attributes, const FileLocation& where, const std::string& what);
+/// The number of the course that the attributes of a block state; none without it or below 0, as of supports.
+/// Throws InputError likewise.
+std::optional<int> course_in(const Json& attributes, const FileLocation& where, const std::string& what);
 
 /// The mesh of a block: `vertex` (key: x, y, z) and `face` (key: keys of its corners). Throws InputError that
 /// names block, vertex or face.

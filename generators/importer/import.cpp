@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/model/block_distance.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/joint_rule.hpp"
 #include "assembly/model/polygon_parts.hpp"
@@ -138,7 +140,27 @@ std::string text_of_solids(const std::vector<int>& solids, const Assembly& assem
       counted(several.size(), "rigid stone"));
 }
 
-std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw) {
+/// Throws InputError for a tie of no direction, and for an end in the air.
+void check_tie(const BuiltTie& tie, const RawTie& row, const Assembly& assembly) {
+  constexpr double kFarthest = 0.1;  // of the size of the block, as for forces at points
+  if (tie.block_a == tie.block_b)
+    throw InputError(row.where,
+                     fmt::format("both ends are on block '{}'; a tie connects two blocks", row.block_a));
+  if (tie.point_a == tie.point_b || tie.length == 0.0)
+    throw InputError(row.where, "the length is 0: a tie has two ends apart, and a length at rest > 0");
+  for (const auto& [block, name, point] :
+       {std::tuple(tie.block_a, row.block_a, tie.point_a), {tie.block_b, row.block_b, tie.point_b}}) {
+    const double outside = distance_from_block(assembly, block, point);
+    if (outside > kFarthest * std::cbrt(assembly.blocks[block].volume))
+      throw InputError(row.where,
+                       fmt::format("the end at ({:g}, {:g}, {:g}) m lies {:.3g} m beyond the faces of its "
+                                   "block '{}'; correct the point, or the block",
+                                   point.x(), point.y(), point.z(), outside, name));
+  }
+}
+
+std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<RawBlock>& raw,
+                                const Assembly& assembly) {
   std::vector<RawTie> rows;
   if (!source.springs.empty()) rows = read_springs(source.springs);
   if (!source.rods.empty())
@@ -152,6 +174,7 @@ std::vector<BuiltTie> read_ties(const ImportedBlocks& source, const std::vector<
     ties.push_back({block_of[row.block_a], block_of[row.block_b], to_world(source, row.point_a),
                     to_world(source, row.point_b), row.stiffness,
                     row.length * source.metres_per_unit.value_or(1.0), row.pushes});
+    check_tie(ties.back(), row, assembly);
   }
   return ties;
 }
@@ -207,7 +230,7 @@ Assembly import_blocks(const ImportedBlocks& source, double density, ImportRepor
     report->uses_material |= !assembly.blocks[b].fixed && !raw[b].density;
   report->separate_solids = text_of_solids(report->solids, assembly);
   report->doubt_of_axes = doubt_of_axes(source, *report, assembly);
-  assembly.ties = read_ties(source, raw);
+  assembly.ties = read_ties(source, raw, assembly);
   report->ties = static_cast<int>(assembly.ties.size());
   return assembly;
 }

@@ -4,6 +4,11 @@
 #include <limits>
 #include <set>
 
+#include <fmt/format.h>
+
+#include "assembly/base/error.hpp"
+#include "assembly/model/joint_rule.hpp"
+
 namespace cupola {
 namespace {
 
@@ -29,10 +34,9 @@ std::vector<double> lowest_corners(const Assembly& assembly) {
 
 void fix_supports(const ImportedBlocks& source, const std::vector<RawBlock>& raw, const ImportReport& report,
                   Assembly* assembly) {
-  constexpr double kSamePlane = 1e-3;  // of the height of the model
   const std::set<std::string> named(source.supports.begin(), source.supports.end());
   const std::vector<double> lowest = lowest_corners(*assembly);
-  const double plane = report.low.z() + kSamePlane * (report.high.z() - report.low.z());
+  const double plane = report.low.z() + joint_rule(smallest_block_size(*assembly), 0.0).min_width;
   for (size_t b = 0; b < raw.size(); ++b)
     if (named.contains(raw[b].name) || (source.flagged_supports && raw[b].fixed) ||
         (source.fixed_below && assembly->blocks[b].centroid.z() < *source.fixed_below) ||
@@ -75,6 +79,16 @@ int fix_ends(const ImportedBlocks& source, std::span<const FacePair> joints, Ass
     ++ends;
   }
   return ends;
+}
+
+void refuse_all_fixed(const ImportedBlocks& source, const Assembly& assembly) {
+  if (!std::ranges::all_of(assembly.blocks, &Block::fixed)) return;
+  using enum ImportedBlocks::SupportRule;
+  throw InputError(fmt::format("geometry.import.{}: all blocks are fixed; leave those free that may move",
+                               source.fixed_below        ? "fixed_below"
+                               : source.fixed_by != none ? "fixed_by"
+                               : source.supports.empty() ? "flagged_supports"
+                                                         : "supports"));
 }
 
 }  // namespace cupola

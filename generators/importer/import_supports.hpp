@@ -20,4 +20,7 @@ std::string doubt_of_axes(const ImportedBlocks& source, const ImportReport& repo
 /// Fixes the blocks with a single neighbour, if the case asks for it. Returns how many.
 int fix_ends(const ImportedBlocks& source, std::span<const FacePair> joints, Assembly* assembly);
 
+/// Throws InputError for a case that fixes all blocks, with a key that does.
+void refuse_all_fixed(const ImportedBlocks& source, const Assembly& assembly);
+
 }  // namespace cupola

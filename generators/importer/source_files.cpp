@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -109,9 +110,14 @@ void place_in_world(const ImportedBlocks& source, std::vector<RawBlock>* blocks)
       for (Vec3& v : part) v = to_world(source, v);
   }
   check_names(source, source.supports, block_of, "supports");
+  std::set<std::string> changed;
   for (const BlockDensity& change : source.densities) {
     check_names(source, change.blocks, block_of, "densities");
-    for (const std::string& name : change.blocks) (*blocks)[block_of[name]].density = change.density;
+    for (const std::string& name : change.blocks) {
+      if (!changed.insert(name).second)
+        throw InputError(fmt::format("geometry.import.densities: gives block '{}' twice", name));
+      (*blocks)[block_of[name]].density = change.density;
+    }
   }
 }
 

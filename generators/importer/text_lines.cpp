@@ -20,13 +20,19 @@ bool parse(std::string_view word, T* value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
+/// The line up to a `#` at the start of a word.
+std::string_view before_comment(std::string_view line, std::string_view between) {
+  for (size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1))
+    if (at == 0 || between.find(line[at - 1]) != std::string_view::npos) return line.substr(0, at);
+  return line;
+}
+
 }  // namespace
 
 TextLines::TextLines(std::string path, std::string_view separators, Backslash backslash)
     : path_(std::move(path)), text_(read_text(path_)), separators_(separators), backslash_(backslash) {}
 
 bool TextLines::next() {
-  const std::string between = std::string(kWhite) + std::string(separators_);
   words_.clear();
   while (position_ < text_.size()) {
     const size_t end = std::min(text_.find('\n', position_), text_.size());
@@ -37,18 +43,27 @@ bool TextLines::next() {
     bool continued =
         backslash_ == Backslash::continues && last != std::string_view::npos && line[last] == '\\';
     if (continued) line = line.substr(0, last);
-    for (size_t start = line.find_first_not_of(between); start != std::string_view::npos;) {
-      if (line[start] == '#') {
-        continued = false;  // a comment may end so
-        break;
-      }
-      const size_t stop = std::min(line.find_first_of(between, start), line.size());
-      words_.push_back(line.substr(start, stop - start));
-      start = line.find_first_not_of(between, stop);
-    }
+    const std::string_view text = before_comment(line, std::string(kWhite) + std::string(separators_));
+    continued = continued && text.size() == line.size();  // a comment may end so
+    split(text);
     if (!words_.empty() && !continued) return true;
   }
   return !words_.empty();
+}
+
+void TextLines::split(std::string_view text) {
+  constexpr size_t kNone = std::string_view::npos;
+  const bool semicolons = separators_.find(';') != kNone && text.find(';') != kNone;
+  const std::string_view separators = semicolons ? ";" : separators_;
+  const std::string between = std::string(kWhite) + std::string(separators);
+  for (size_t start = text.find_first_not_of(kWhite); start != kNone;) {
+    const size_t stop = std::min(text.find_first_of(between, start), text.size());
+    words_.push_back(text.substr(start, stop - start));
+    start = text.find_first_not_of(kWhite, stop);
+    if (start != kNone && separators.find(text[start]) != kNone)
+      start = text.find_first_not_of(kWhite, start + 1);
+  }
+  while (!words_.empty() && words_.back().empty()) words_.pop_back();  // a table pads its short rows
 }
 
 std::string_view TextLines::rest(size_t word) const {
@@ -66,6 +81,7 @@ double TextLines::number(size_t word, const std::string& context) const {
   if (word >= words_.size())
     fail(fmt::format("a number is missing after '{}', the line has {}{}", words_.back(),
                      counted(words_.size(), "word"), context));
+  if (words_[word].empty()) fail(fmt::format("value {} of the row is empty, a number is required", word + 1));
   if (!parse(words_[word], &value) || !std::isfinite(value))
     fail(fmt::format("'{}' is not a finite number{}", words_[word], context));
   return value;

@@ -16,7 +16,9 @@ class TextLines {
   /// What a `\` at the end of a line means.
   enum class Backslash : std::uint8_t { is_text, continues };
 
-  /// `separators`: characters besides white space that separate words.
+  /// `separators`: characters besides white space that separate words. Two of them enclose an empty word,
+  /// except at the end of a line. If `;` is one, it is the only one of a line that has it: a comma there is
+  /// that of a decimal.
   TextLines(std::string path, std::string_view separators = "", Backslash backslash = Backslash::is_text);
 
   /// Moves to the next line with words. A `#` at the start of a word begins a comment. Returns false at the
@@ -40,6 +42,8 @@ class TextLines {
   size_t count(size_t word, size_t bytes_each) const;
 
  private:
+  void split(std::string_view text);  ///< appends its words
+
   std::string path_, text_, subject_;
   std::string_view separators_;
   Backslash backslash_;

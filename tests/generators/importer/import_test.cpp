@@ -273,6 +273,21 @@ TEST_F(Import, SpringsAndRodsConnectBricks) {
   EXPECT_TRUE(std::isinf(rod.stiffness));
   EXPECT_DOUBLE_EQ(rod.length, 1.0);
   EXPECT_TRUE(rod.pushes);
+  for (const auto& [row, phrase] :
+       {std::pair("1,7,1,0.5,0.5,7,0,0.5,0.5\n", "both ends are on block '7'"),
+        {"1,7,1,0.5,0.5,8,1,0.5,0.5\n", "the length is 0"},
+        {"1,7,1,0.5,0.5,8,9,0.5,0.5\n",
+         "the end at (9, 0.5, 0.5) m lies 6 m beyond the faces of its block '8'"}}) {
+    write("rods.csv", row);
+    try {
+      import_blocks(source, 1.0);
+      ADD_FAILURE() << row;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("rods.csv:1: error: ") + phrase),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 }  // namespace
