@@ -115,7 +115,8 @@ std::optional<Meeting> meeting_of(const Assembly& assembly, const ConvexShape& a
                               face_b = face_points(assembly, b.faces[j]);
       const double gap = std::abs(p.normal.dot(polygon_centroid(face_b)) - p.offset);
       if (gap > tolerances.joint_gap) continue;
-      const double width = overlap_width(face_a, face_b, p.normal);
+      double width = overlap_width(face_a, face_b, p.normal);
+      if (width > 0.0) width = common_width(face_a, face_b);
       if (!widest || width > widest->width) widest = {gap, width, a.faces[i], b.faces[j]};
       if (widest->width > tolerances.joint_width) return widest;
     }

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "assembly/base/error.hpp"
+#include "assembly/model/polygon_parts.hpp"
 
 namespace cupola {
 namespace {
@@ -82,6 +83,19 @@ double overlap_width(std::span<const Vec3> a, std::span<const Vec3> b, const Vec
       width = std::min(width, depth_on_axis(a, b, axis / length));
       if (width <= 0.0) return width;
     }
+  return width;
+}
+
+double common_width(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  const std::vector<Vec3> common = divide(a, PlanePolygon(b), 0.0).inside;
+  if (common.empty()) return 0.0;
+  const Vec3 normal = polygon_plane(common).normal;
+  double width = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < common.size(); ++i) {
+    const Vec3 axis = (common[(i + 1) % common.size()] - common[i]).cross(normal);
+    if (const double length = axis.norm(); length > 0.0)  // else a corner that is there twice
+      width = std::min(width, highest(common, axis / length) + highest(common, -axis / length));
+  }
   return width;
 }
 

@@ -21,8 +21,12 @@ ConvexShape convex_shape(const Assembly& assembly, const Part& part);
 /// first axis with an overlap of at most `good_enough`.
 double overlap_depth(const ConvexShape& a, const ConvexShape& b, double good_enough);
 
-/// Smallest overlap (m) of two convex polygons in one plane, over the directions normal to their edges; <= 0
-/// if they are apart.
+/// Least shift (m) that separates two convex polygons in one plane, over the directions normal to their
+/// edges; <= 0 if they are apart.
 double overlap_width(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal);
+
+/// Least width (m) of what two convex polygons in one plane have in common, as contact detection measures a
+/// joint; 0 if nothing. For a strip inside a wide face it is that of the strip.
+double common_width(const std::vector<Vec3>& a, const std::vector<Vec3>& b);
 
 }  // namespace cupola

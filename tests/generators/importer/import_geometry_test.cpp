@@ -128,6 +128,44 @@ TEST_F(Import, FixesTheLowestBlocks) {
   EXPECT_FALSE(model.blocks[2].fixed);
 }
 
+// A stone on a pad 5 mm thick is no support, however high the model: 5 mm are 5e-4 of it.
+TEST_F(Import, FixesNoBlockOnAThinPad) {
+  const auto brick = [](const char* name, double low, double high) {
+    std::string row = fmt::format("{},0,0,0,2000,0,0,0,0,0,0", name);
+    for (const double z : {low, high}) row += fmt::format(",0,0,{0},1,0,{0},1,1,{0},0,1,{0}", z);
+    return row + "\n";
+  };
+  ImportedBlocks source;
+  source.path = write("pad.csv", brick("pad", 0, 0.005) + brick("column", 0.005, 10));
+  source.fixed_by = ImportedBlocks::SupportRule::lowest;
+  const Assembly model = import_blocks(source, 1000.0);
+  EXPECT_TRUE(model.blocks[0].fixed);
+  EXPECT_FALSE(model.blocks[1].fixed);
+}
+
+// A wedge on its narrow foot in the middle of a wide ground. The least joint is 1e-3 of the cube root of
+// 0.5 m3, 0.79 mm; the shift that separates foot and ground is 2 m. Tolerance: rounding of coordinates.
+TEST_F(Import, MeasuresAJointInTheMiddleOfAFace) {
+  for (const double foot : {0.5e-3, 1e-3}) {  // m
+    SCOPED_TRACE(foot);
+    const auto row = [](const char* name, int fixed, double z, double low, double high) {
+      std::string text = fmt::format("{},{},0,0,2000,0,0,0,0,0,0", name, fixed);
+      for (const auto& [x, level] : {std::pair(low, z), {high, z + 1.0}})
+        text += fmt::format(",{0},0,{2},{1},0,{2},{1},1,{2},{0},1,{2}", -x, x, level);
+      return text + "\n";
+    };
+    Case scene;
+    scene.geometry.imported.emplace().path =
+        write("wedge.csv", row("ground", 1, -1, 2, 2) + row("wedge", 0, 0, 0.5 * foot, 0.5));
+    GenerateReport report;
+    generate(scene, &report);
+    EXPECT_EQ(report.model.num_joints, foot < 0.79e-3 ? 0 : 1);
+    EXPECT_EQ(report.model.islands, foot < 0.79e-3 ? 2 : 1);
+    ASSERT_EQ(report.model.narrow_joints.size(), foot < 0.79e-3 ? 1u : 0u);
+    for (const NarrowJoint& joint : report.model.narrow_joints) EXPECT_NEAR(joint.width, foot, 1e-15);
+  }
+}
+
 // Two faces of the block are warped by 0.1 m. The bilinear surface through four corners halves the difference
 // of the volumes with either diagonal: each raised corner lifts the top by a quarter on average.
 TEST_F(Import, ComparesTheVolumeWithTheDrawing) {
@@ -153,6 +191,8 @@ TEST_F(Import, AppliesDensitiesOfTheCase) {
   EXPECT_NEAR(model.blocks[0].mass, 2000.0, 1e-9);
   EXPECT_NEAR(model.blocks[1].mass, 3510.0, 1e-9);
   source.densities = {{{"middle"}, 3510.0}};
+  EXPECT_THROW(import_blocks(source, 2000.0), InputError);
+  source.densities = {{{"upper"}, 3510.0}, {{"lower", "upper"}, 2500.0}};
   EXPECT_THROW(import_blocks(source, 2000.0), InputError);
 }
 
