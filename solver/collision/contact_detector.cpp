@@ -126,7 +126,8 @@ void DetectionOptions::validate() const {
 ContactDetector::ContactDetector(const Assembly& assembly, const DetectionOptions& options)
     : options_(options), model_(make_collision_model(assembly)) {
   options_.validate();
-  if (!options_.contact_file.empty()) contacts_from_file_ = read_contacts(options_.contact_file, assembly);
+  if (!options_.contact_file.empty())
+    contacts_from_file_ = read_contacts(options_.contact_file, assembly, options_.margin);
   if (options_.perturbed_gjk) perturbed_gjk_.emplace(model_, *options_.perturbed_gjk);
   const JointRule rule = joint_rule(model_.smallest_block, options_.margin);
   if (options_.margin == 0.0) options_.margin = perturbed_gjk_ ? perturbed_gjk_->margin() : rule.margin;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <sstream>
 #include <tuple>
 
@@ -10,6 +12,9 @@
 #include "assembly/base/error.hpp"
 #include "assembly/files/atomic_file.hpp"
 #include "assembly/files/number_text.hpp"
+#include "assembly/model/block_distance.hpp"
+#include "assembly/model/joint_rule.hpp"
+#include "assembly/model/polygon_parts.hpp"
 
 namespace cupola {
 namespace {
@@ -41,20 +46,69 @@ std::array<double, kColumns> read_numbers(const std::string& line, const FileLoc
   return values;
 }
 
-int block_of(double value, const Assembly& assembly, const FileLocation& where) {
-  const int block = static_cast<int>(std::clamp(value, -1.0, static_cast<double>(assembly.blocks.size())));
-  if (block != value || block < 0 || block >= static_cast<int>(assembly.blocks.size()))
-    throw InputError(
-        where, fmt::format("block {}: must be an integer from 0 to {}", value, assembly.blocks.size() - 1));
-  return block;
+/// An integer from `low` to `high`; `what` begins the message.
+int integer_of(double value, int low, int high, const char* what, const FileLocation& where) {
+  if (!(value >= low && value <= high) || value != std::floor(value))
+    throw InputError(where, fmt::format("{} {}: must be an integer from {} to {}", what, value, low, high));
+  return static_cast<int>(value);
 }
 
-Row read_row(const std::string& line, const Assembly& assembly, const FileLocation& where) {
+/// How many faces of a block that a point lies on, within the margin, look along n, and how many against it.
+struct FacesAtPoint {
+  int along = 0, against = 0;
+};
+FacesAtPoint faces_at(const Assembly& assembly, int block, const Vec3& point, const Vec3& n,
+                      const JointRule& rule) {
+  FacesAtPoint count;
+  for (const Part& part : parts_of_block(assembly, block)) {
+    if (distance_from_part(assembly, part, point) > rule.margin) continue;
+    for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
+      const Plane plane = polygon_plane(face_points(assembly, f));
+      if (assembly.face_kinds[f] == FaceKind::internal ||
+          plane.normal.dot(point) - plane.offset < -rule.margin)
+        continue;
+      count.along += plane.normal.dot(n) >= std::cos(rule.max_angle) ? 1 : 0;
+      count.against += plane.normal.dot(n) <= -std::cos(rule.max_angle) ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+/// Throws InputError if the blocks do not touch at the point by the rule that detected contacts follow.
+void check_place(const Row& row, const Assembly& assembly, const JointRule& rule, const FileLocation& where) {
+  if (std::abs(row.gap) > rule.margin)
+    throw InputError(where, fmt::format("gap_m = {:g}: blocks touch within contact.margin = {:.3g} m",
+                                        row.gap, rule.margin));
+  const Vec3 half_gap = 0.5 * row.gap * row.normal;
+  for (const auto& [block, on_block] :
+       {std::pair(row.block_a, Vec3(row.point - half_gap)), {row.block_b, row.point + half_gap}}) {
+    const double outside = distance_from_block(assembly, block, on_block);
+    double surface = 0.0;
+    for (const PlanePolygon& face : faces_of_block(assembly, block)) surface += polygon_area(face.corners);
+    if (row.area > surface)
+      throw InputError(where, fmt::format("area_m2 = {:g}: the faces of block {} have {:g} m2 in all",
+                                          row.area, block, surface));
+    if (outside > rule.margin)
+      throw InputError(where, fmt::format("the point lies {:.3g} m beyond the faces of block {}, more than "
+                                          "contact.margin = {:.3g} m",
+                                          outside, block, rule.margin));
+  }
+  const FacesAtPoint a = faces_at(assembly, row.block_a, row.point - half_gap, row.normal, rule),
+                     b = faces_at(assembly, row.block_b, row.point + half_gap, -row.normal, rule);
+  if (a.along + b.along == 0 && a.against + b.against > 0)
+    throw InputError(
+        where, "nx, ny, nz point from block_b to block_a: must be the direction from block_a to block_b");
+}
+
+Row read_row(const std::string& line, const Assembly& assembly, const JointRule& rule,
+             const FileLocation& where) {
   const auto v = read_numbers(line, where);
   Row row;
-  row.block_a = block_of(v[0], assembly, where);
-  row.block_b = block_of(v[1], assembly, where);
-  row.joint = static_cast<int>(std::clamp(v[2], -1e9, 1e9));
+  const int last = static_cast<int>(assembly.blocks.size()) - 1;
+  row.block_a = integer_of(v[0], 0, last, "block", where);
+  row.block_b = integer_of(v[1], 0, last, "block", where);
+  row.joint =
+      integer_of(v[2], std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), "joint", where);
   row.point = Vec3(v[3], v[4], v[5]);
   row.normal = Vec3(v[6], v[7], v[8]);
   row.gap = v[9];
@@ -69,6 +123,7 @@ Row read_row(const std::string& line, const Assembly& assembly, const FileLocati
     std::swap(row.block_a, row.block_b);
     row.normal = -row.normal;
   }
+  check_place(row, assembly, rule, where);
   return row;
 }
 
@@ -109,7 +164,8 @@ void append_row(const Row& row, const Assembly& assembly, bool new_patch, Anchor
 
 }  // namespace
 
-AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly) {
+AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly, double margin) {
+  const JointRule rule = joint_rule(smallest_block_size(assembly), margin);
   std::istringstream stream(read_text(path));
   std::vector<Row> rows;
   FileLocation where{path, 0, 1};
@@ -119,7 +175,7 @@ AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly
     if (where.line == 1) {
       if (line != kHeader) throw InputError(where, fmt::format("the first line must be {}", kHeader));
     } else if (!line.empty()) {
-      rows.push_back(read_row(line, assembly, where));
+      rows.push_back(read_row(line, assembly, rule, where));
     }
   }
   if (rows.empty()) throw InputError(where, "contains no contact: add a row per contact point");

@@ -22,7 +22,8 @@ namespace cupola {
 /// Points of a joint keep their order. A joint between two rings is a bed, one within a ring is a head, and
 /// one with a fixed block is a base joint.
 ///
-/// Throws InputError with file and line for missing columns, invalid numbers and invalid block pairs.
-AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly);
+/// Throws InputError with file and line for missing columns, invalid numbers, invalid block pairs, and points
+/// at which the two blocks do not touch: `margin` (m) is that of the case, see joint_rule().
+AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly, double margin = 0.0);
 
 }  // namespace cupola

@@ -127,6 +127,23 @@ TEST_F(ContactFile, ErrorsStateFileLineAndRule) {
             std::string::npos);
 }
 
+// The block is a cube of 1 m on the plane z = 0; the margin is 0.01 m. What is no contact would carry forces.
+TEST_F(ContactFile, RefusesPointsWhereTheBlocksDoNotTouch) {
+  for (const auto& [row, phrase] :
+       {std::pair("0,1,0,0,0,0,0,0,1,0.5,1\n", "gap_m = 0.5: blocks touch within contact.margin = 0.01 m"),
+        {"0,1,0,0,0,0,0,0,1,-0.02,1\n", "gap_m = -0.02: blocks touch within"},
+        {"0,1,0,0.52,0,0,0,0,1,0,1\n", "the point lies 0.02 m beyond the faces of block 1"},
+        {"0,1,0,0,0,0,0,0,-1,0,1\n", "nx, ny, nz point from block_b to block_a"},
+        {"1,0,0,0,0,0,0,0,1,0,1\n", "nx, ny, nz point from block_b to block_a"},
+        {"0,1,0,0,0,0,0,0,1,0,100\n", "area_m2 = 100: the faces of block 1 have 6 m2 in all"},
+        {"0,1,0.5,0,0,0,0,0,1,0,1\n", "joint 0.5: must be an integer"}}) {
+    const std::string message = error_message(kHeader + row);
+    EXPECT_NE(message.find(std::string(":2:1: error: ") + phrase), std::string::npos) << message;
+  }
+  for (const char* row : {"0,1,0,0.509,0.509,0,0,0,1,0.01,1\n", "1,0,-3,0.5,0.5,0.005,0,0,-1,0.01,1\n"})
+    EXPECT_EQ(error_message(kHeader + row), "no error");
+}
+
 TEST_F(ContactFile, PatchesAreWrittenAsPolygons) {
   const Assembly wall = running_bond_wall(Vec3(1.2, 1.0, 0.3), 3, 3);
   const ContactSet set = ContactDetector(wall, {}).update(initial_poses(wall));
