@@ -33,11 +33,12 @@ Json block_node(const ExportModel& model, int b, const BlockSurface& surface) {
             {"edgedata", Json::object()},
             {"max_vertex", static_cast<int>(surface.vertices.size()) - 1},
             {"max_face", static_cast<int>(surface.faces.size()) - 1}};
-  return {{"block", {{"dtype", "compas_assembly.datastructures/Block"}, {"data", std::move(data)}}},
-          {"is_support", block.fixed},
-          {"name", label},
-          {"course", block.ring},
-          {"density", block.density}};
+  Json node{{"block", {{"dtype", "compas_assembly.datastructures/Block"}, {"data", std::move(data)}}},
+            {"is_support", block.fixed},
+            {"name", label},
+            {"density", block.density}};
+  if (model.assembly.num_rings > 0 && !block.fixed) node["course"] = block.ring;
+  return node;
 }
 
 /// The force of the contact point at a corner; none if no point lies there.

@@ -131,7 +131,7 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
     if (!met.empty()) {
       solution.outcome = StaticOutcome::unconverged;
       solution.message =
-          fmt::format("block {} runs into block {} from aside; take shorter steps",
+          fmt::format("block {} meets block {} from aside; take shorter steps",
                       block_label(*model_.assembly, met[0].a), block_label(*model_.assembly, met[0].b));
       return solution;
     }

@@ -10,6 +10,7 @@
 
 #include "assembly/base/error.hpp"
 #include "generators/generate.hpp"
+#include "generators/importer/readers.hpp"
 #include "tests/fresh_folder.hpp"
 #include "tests/generators/meshes.hpp"
 #include "tests/generators/models.hpp"
@@ -143,6 +144,22 @@ TEST(Export, InterfacesLookOutOfTheirFirstBlock) {
     EXPECT_NE(csv.find(first == 0 ? "\n0,1,0,0,0,1,0,0,1,0,0.25\n" : "\n1,0,0,0,0,1,-0,-0,-1,0,0.25\n"),
               std::string::npos)
         << csv;
+  }
+}
+
+// Zeros for all would come back as a wall of one course, with keys by course that this model refuses.
+TEST(Export, NumbersNoCoursesThatDoNotExist) {
+  const std::string path = test::fresh_folder("exported") + "/wall.json";
+  Assembly wall = cut_assembly(wall_case(2, 2));
+  for (const bool has_courses : {true, false}) {
+    if (!has_courses) {
+      wall.num_rings = 0;
+      wall.sheets.clear();
+      for (Block& block : wall.blocks) block.ring = 0;
+    }
+    write_export(path, {wall, {}, {}});
+    for (const RawBlock& block : read_compas(path))
+      EXPECT_EQ(block.course.has_value(), has_courses && !block.fixed) << block.name;
   }
 }
 
