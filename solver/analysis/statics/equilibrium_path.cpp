@@ -169,7 +169,7 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
   StaticSolution solution = solve_from(last, guess - last.state.time);
   const auto stands = [&] { return solution.outcome == StaticOutcome::equilibrium; };
   const VecX displacement = solution.h * solution.step_solution.v;
-  if (stands()) refuse_if_far(last, &solution);
+  const std::string far = stands() ? too_far(last, solution) : "";
   // A step in which joints soften has the mean of their strength, one that repeats it the last.
   const bool softens = options_.control && model_.joints.has_strength();
   const double long_step = options_.control ? kLongStepOfControl : kLongStep;
@@ -177,6 +177,10 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
       !softens && displacement_of(solution) > long_step * smallest_block_size(*model_.assembly);
   if (stands() && (geometry_ == PathGeometry::end || is_long))
     solution = correct(last.memories.ties, std::move(solution));
+  if (stands() && !far.empty()) {
+    solution.outcome = StaticOutcome::unconverged;
+    solution.message = far + "; take shorter steps";
+  }
   if (stands()) {
     // Blocks that rest as drawn say nothing of the next step.
     if (last_displacement_.size() > 0 || !displacement.isZero(0.0)) last_displacement_ = displacement;

@@ -63,8 +63,8 @@ class EquilibriumPath {
   StaticSolution solve_from(const LoadedState& from, double time_advance);
   bool is_unloaded() const;
   NearbyStart next_start(double step) const;
-  /// No equilibrium, if the step from `last` leads so far that its linear geometry says nothing of its end.
-  void refuse_if_far(const LoadedState& last, StaticSolution* solution) const;
+  /// Why the step from `last` leads so far that its linear geometry says nothing of its end; "" if it does not.
+  std::string too_far(const LoadedState& last, const StaticSolution& solution) const;
   /// Solves again where the last solve ended, until forces and geometry belong to each other. `ties`: at the
   /// start of the step.
   StaticSolution correct(const std::vector<TieMemory>& ties, StaticSolution solution);

@@ -31,20 +31,17 @@ bool EquilibriumPath::is_settled(const StaticSolution& solution) const {
          (moved <= kNegligible && displacement_of(solution) <= displacement_by_imbalance(solution));
 }
 
-void EquilibriumPath::refuse_if_far(const LoadedState& last, StaticSolution* solution) const {
+std::string EquilibriumPath::too_far(const LoadedState& last, const StaticSolution& solution) const {
   // Chosen: levers multiply what supports move.
   constexpr double kLever = 10.0;
   const Assembly& assembly = *model_.assembly;
-  const double way = displacement_of(*solution), size = smallest_block_size(assembly);
-  std::string reason;
+  const double way = displacement_of(solution), size = smallest_block_size(assembly);
   if (!options_.control && way > size + kLever * imposed_displacement(model_, start_, options_))
-    reason = fmt::format("blocks move by {:.2g} m, where the smallest has {:.2g} m", way, size);
-  else if (const auto fast = fast_pair(detector_.model(), last.state.poses, loaded_.state.poses, 1.0, 1.0))
-    reason = fmt::format("block {} moves by {:.2g} m, and may pass block {}",
-                         block_label(assembly, fast->block), fast->way, block_label(assembly, fast->other));
-  if (reason.empty()) return;
-  solution->outcome = StaticOutcome::unconverged;
-  solution->message = reason + " in one step; take shorter steps";
+    return fmt::format("blocks move by {:.2g} m in one step, where the smallest has {:.2g} m", way, size);
+  if (const auto fast = fast_pair(detector_.model(), last.state.poses, loaded_.state.poses, 1.0, 1.0))
+    return fmt::format("block {} moves by {:.2g} m in one step, and may pass block {}",
+                       block_label(assembly, fast->block), fast->way, block_label(assembly, fast->other));
+  return {};
 }
 
 StaticSolution EquilibriumPath::correct(const std::vector<TieMemory>& ties, StaticSolution solution) {
