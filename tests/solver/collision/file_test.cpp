@@ -132,7 +132,7 @@ TEST_F(ContactFile, RefusesPointsWhereTheBlocksDoNotTouch) {
   for (const auto& [row, phrase] :
        {std::pair("0,1,0,0,0,0,0,0,1,0.5,1\n", "gap_m = 0.5: blocks touch within contact.margin = 0.01 m"),
         {"0,1,0,0,0,0,0,0,1,-0.02,1\n", "gap_m = -0.02: blocks touch within"},
-        {"0,1,0,0.52,0,0,0,0,1,0,1\n", "the point lies 0.02 m beyond the faces of block 1"},
+        {"0,1,0,0.62,0,0,0,0,1,0,1\n", "the point lies 0.12 m beyond the faces of block 1"},
         {"0,1,0,0,0,0,0,0,-1,0,1\n", "nx, ny, nz point from block_b to block_a"},
         {"1,0,0,0,0,0,0,0,1,0,1\n", "nx, ny, nz point from block_b to block_a"},
         {"0,1,0,0,0,0,0,0,1,0,100\n", "area_m2 = 100: the faces of block 1 have 6 m2 in all"},
@@ -140,7 +140,7 @@ TEST_F(ContactFile, RefusesPointsWhereTheBlocksDoNotTouch) {
     const std::string message = error_message(kHeader + row);
     EXPECT_NE(message.find(std::string(":2:1: error: ") + phrase), std::string::npos) << message;
   }
-  for (const char* row : {"0,1,0,0.509,0.509,0,0,0,1,0.01,1\n", "1,0,-3,0.5,0.5,0.005,0,0,-1,0.01,1\n"})
+  for (const char* row : {"0,1,0,0.59,0.59,0,0,0,1,0.01,1\n", "1,0,-3,0.5,0.5,0.005,0,0,-1,0.01,1\n"})
     EXPECT_EQ(error_message(kHeader + row), "no error");
 }
 
