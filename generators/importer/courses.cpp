@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "assembly/base/error.hpp"
 #include "generators/importer/course_labels.hpp"
 
 namespace cupola {
@@ -222,6 +223,8 @@ CourseReport set_courses(std::span<const FacePair> joints, std::span<const int> 
                   : sheet.thrust_lines == radial ? "from several springers or about the given axis"
                                                  : "a wall";
   }
+  if (axis && sheet.thrust_lines == one)
+    throw InputError("geometry.import.axis: must be left out: an arch pushes along its span");
   report.refusal = courses.refusal;
   const bool found = courses.refusal.empty();
   sheet.num_rings = found ? static_cast<int>(courses.stones.size()) : 0;

@@ -30,7 +30,7 @@ struct CourseReport {
 ///
 /// `numbers` of the file, per block, from either end, replace the distances and the first two rules; each
 /// stone must lie on a support or on a stone of a lower course. Throws InputError if only some free blocks
-/// have one.
+/// have one, and for the axis of an arch.
 ///
 /// `axis` is a point of the vertical axis of a vault (m); none: through the centroid of the faces of the
 /// supports. `joints` are those of check_model().

@@ -211,10 +211,15 @@ std::vector<HangingCorner> find_hanging_corners(const Assembly& assembly,
   std::string text =
       fmt::format("{}blocks {} and {} overlap by {:.3g} m{}", is_imported ? "" : "geometry: ", names.name(a),
                   names.with_source(b), largest, is_imported ? "" : places_of_members(assembly, a, b));
-  if (tolerances.part_by_part && is_imported)
-    text += fmt::format(
-        ", more than contact.margin = {:.3g} m: correct the geometry or increase contact.margin to {:.2g} m",
-        tolerances.overlap, 1.05 * largest);
+  if (tolerances.part_by_part && is_imported) {
+    constexpr double kMostMargin = 0.1;  // of a block: with a larger one it would bear from inside another
+    const double margin = 1.05 * largest,
+                 size = std::cbrt(std::min(assembly.blocks[a].volume, assembly.blocks[b].volume));
+    text += fmt::format(", more than contact.margin = {:.3g} m: correct the geometry{}", tolerances.overlap,
+                        margin <= kMostMargin * size
+                            ? fmt::format(" or increase contact.margin to {:.2g} m", margin)
+                            : ", in which one may be drawn twice or inside the other");
+  }
   if (deepest.size() > 1) text += fmt::format("; {} overlap:", counted(deepest.size(), "pair"));
   for (size_t i = 0; deepest.size() > 1 && i < std::min(kListed, deepest.size()); ++i)
     text += fmt::format("{} {} and {} by {:.3g} m", i == 0 ? "" : ",", names.name(deepest[i].second.first),

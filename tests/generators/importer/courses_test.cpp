@@ -368,5 +368,16 @@ TEST(Courses, OutwardIsAwayFromAGivenAxis) {
   EXPECT_NEAR((*outward - Vec3::UnitY()).norm(), 0.0, 1e-15);
 }
 
+TEST(Courses, OfAnArchRefuseAnAxis) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path = test::fresh_folder("axis_of_an_arch") + "/model.obj";
+  scene.geometry.imported->fixed_by = SupportRule::one_neighbour;
+  scene.geometry.imported->axis = Vec3(100.0, 0.0, 0.0);
+  write_export(scene.geometry.imported->path,
+               {cut_assembly(read_case(CUPOLA_SOURCE_DIR "/cases/arch.yaml", {})), {}, {}});
+  EXPECT_NE(refusal_of(scene).find("geometry.import.axis: must be left out: an arch"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cupola::courses_test

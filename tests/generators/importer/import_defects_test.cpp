@@ -178,6 +178,14 @@ TEST_F(Import, NamesAllOverlapsAtOnceWithTheMarginThatAdmitsThem) {
   EXPECT_EQ(found.find('\n'), std::string::npos) << found;
 }
 
+// No margin makes two blocks of one.
+TEST_F(Import, OffersNoMarginForABlockThatIsDrawnTwice) {
+  const std::string found = complaint(write("twice.obj", obj_box("a", 0, 0, 1) + obj_box("b", 0, 0, 9)));
+  EXPECT_NE(found.find("correct the geometry, in which one may be drawn twice or inside the other"),
+            std::string::npos)
+      << found;
+}
+
 // The lid of every other box is missing.
 TEST_F(Import, NamesTheDefectsOfAllBlocksAtOnce) {
   const auto open = [](const std::string& box) {
