@@ -2,32 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "assembly/model/block_distance.hpp"
+
 namespace cupola {
-namespace {
-
-std::span<const Part> parts_of(const Assembly& assembly, int block) {
-  return {std::ranges::lower_bound(assembly.parts, block, {}, &Part::block),
-          std::ranges::upper_bound(assembly.parts, block, {}, &Part::block)};
-}
-
-/// m, by which a point lies outside of a convex part.
-double outside(const Assembly& assembly, const Part& part, const Vec3& point) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (int f = part.face_start; f < part.face_start + part.num_faces; ++f) {
-    const Plane plane = polygon_plane(face_points(assembly, f));
-    most = std::max(most, plane.normal.dot(point) - plane.offset);
-  }
-  return most;
-}
-
-}  // namespace
 
 bool is_divided(const Assembly& assembly, int block) {
   const int first = assembly.blocks[block].ring;
-  return std::ranges::any_of(parts_of(assembly, block), [&](const Part& p) { return p.ring != first; });
+  return std::ranges::any_of(parts_of_block(assembly, block), [&](const Part& p) { return p.ring != first; });
 }
 
 int ring_of_piece(const Assembly& assembly, int block, const Vec3& point, int at_most) {
@@ -35,9 +20,9 @@ int ring_of_piece(const Assembly& assembly, int block, const Vec3& point, int at
   const Block& own = assembly.blocks[block];
   if (own.num_rings == 1) return own.ring;
   if (!is_divided(assembly, block)) return own.ring + own.num_rings - 1;
-  const std::span<const Part> parts = parts_of(assembly, block);
+  const std::span<const Part> parts = parts_of_block(assembly, block);
   std::vector<double> distances;
-  for (const Part& part : parts) distances.push_back(outside(assembly, part, point));
+  for (const Part& part : parts) distances.push_back(distance_from_part(assembly, part, point));
   const double near = std::ranges::min(distances) + kNear * std::cbrt(own.volume);
   int highest = -1, lowest = std::numeric_limits<int>::max();
   for (size_t i = 0; i < parts.size(); ++i) {

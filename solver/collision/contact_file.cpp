@@ -74,7 +74,8 @@ FacesAtPoint faces_at(const Assembly& assembly, int block, const Vec3& point, co
   return count;
 }
 
-/// Throws InputError if the blocks do not touch at the point by the rule that detected contacts follow.
+/// Throws InputError if the gap is beyond the margin of detected contacts, the point is far from a block, its
+/// area is larger than the block's surface, or the normal points from b to a.
 void check_place(const Row& row, const Assembly& assembly, const JointRule& rule, const FileLocation& where) {
   // Of the size of a block: the other program may have curved faces where ours are planes.
   constexpr double kFarthest = 0.1;

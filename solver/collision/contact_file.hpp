@@ -23,7 +23,8 @@ namespace cupola {
 /// one with a fixed block is a base joint.
 ///
 /// Throws InputError with file and line for missing columns, invalid numbers, invalid block pairs, and points
-/// at which the two blocks do not touch: `margin` (m) is that of the case, see joint_rule().
+/// with a gap beyond `margin` (m, that of the case, see joint_rule()) or farther from a block than a tenth of
+/// its size.
 AnchoredContacts read_contacts(const std::string& path, const Assembly& assembly, double margin = 0.0);
 
 }  // namespace cupola

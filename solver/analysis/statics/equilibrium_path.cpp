@@ -177,9 +177,10 @@ StaticSolution EquilibriumPath::advance_from(double guess) {
       !softens && displacement_of(solution) > long_step * smallest_block_size(*model_.assembly);
   if (stands() && (geometry_ == PathGeometry::end || is_long))
     solution = correct(last.memories.ties, std::move(solution));
-  if (stands() && !far.empty()) {
-    solution.outcome = StaticOutcome::unconverged;
-    solution.message = far + "; take shorter steps";
+  if (!far.empty()) {  // what holds there is not proven of the structure
+    solution.message = far + "; " + (stands() ? "take shorter steps" : solution.message);
+    if (stands()) solution.outcome = StaticOutcome::unconverged;
+    solution.proven = false;
   }
   if (stands()) {
     // Blocks that rest as drawn say nothing of the next step.
