@@ -59,8 +59,7 @@ KeyNumber critical_answer(const Evaluation& e) {
                     "their extent, and none inside smaller ones",
                     critical.stable));
     if (!decides.empty()) details.push_back("with these it " + decides);
-    return {"Geometric safety factor", fmt::format("{:.4g}", *margin),
-            fmt::format("{}", fmt::join(details, "; "))};
+    return {"Geometric safety factor", fmt::format("{:.4g}", *margin), details};
   }
   std::string unit = limit_unit(critical.parameter);
   if (unit == "factor") unit = critical.parameter == "load" ? "times the load" : "times";
@@ -79,7 +78,7 @@ KeyNumber critical_answer(const Evaluation& e) {
     name = "Least peak stress";
     details.emplace_back("no forces that balance the loads have less everywhere");
   }
-  return {name, value_text(critical.stable, unit), fmt::format("{}", fmt::join(details, "; "))};
+  return {name, value_text(critical.stable, unit), details};
 }
 
 /// An argument as a shell takes it: in quotes where it has other characters than plain names.
@@ -112,7 +111,9 @@ std::string command_for_margins(const Evaluation& e) {
 
 /// What a search ended with, if not with a value that counts.
 KeyNumber sought_answer(const Sought& sought) {
-  return {with_capital(sought.quantity), sought.found.empty() ? "unknown" : sought.found, clauses(sought)};
+  std::vector<std::string> details{sought.reason, sought.advice, sought.also};
+  std::erase(details, "");
+  return {with_capital(sought.quantity), sought.found.empty() ? "unknown" : sought.found, details};
 }
 
 /// True if the run searched for a value: of an equilibrium, or of a limit or stage whatever it does.
@@ -124,10 +125,12 @@ bool searched(const Evaluation& e) {
 /// What the structure bears at the last equilibrium of a path that ends early.
 KeyNumber end_of_path(const Evaluation& e) {
   std::vector<std::string> borne;
-  if (const std::string loads = loads_text(e); !loads.empty()) borne.push_back(loads);
-  if (const std::string moved = moved_text(e); !moved.empty()) borne.push_back(moved);
+  for (const std::string& text : {loads_text(e), moved_text(e)})
+    if (!text.empty()) borne.push_back(text);
+  if (borne.empty()) borne.emplace_back();
+  borne.front().insert(0, borne.front().empty() ? "at the last equilibrium" : "at the last equilibrium: ");
   return {"End of the path", fmt::format("{:.4g} s of {:.4g}", e.last.frame.time, e.scene.analysis.path.end),
-          fmt::format("at the last equilibrium{}{}", borne.empty() ? "" : ": ", fmt::join(borne, "; "))};
+          borne};
 }
 
 /// What the structure bears at most on a path by a length, where the loads fall again before its end.
@@ -135,34 +138,52 @@ KeyNumber largest_load(const Evaluation& e, double time) {
   FrameEvaluation most;
   set_loads(e, time, &most);
   const std::string loads = loads_text(e, most);
-  return {"Largest load", fmt::format("{:.4g} s of {:.4g}", time, e.scene.analysis.path.end),
-          fmt::format("borne before the end of the path, which is at {:.4g} s{}{}", e.last.frame.time,
-                      loads.empty() ? "" : ": ", loads)};
+  return {"Largest load",
+          fmt::format("{:.4g} s of {:.4g}", time, e.scene.analysis.path.end),
+          {fmt::format("borne before the end of the path, which is at {:.4g} s{}{}", e.last.frame.time,
+                       loads.empty() ? "" : ": ", loads)}};
 }
 
-/// What a search over directions leaves open; "" if it has decided all.
-std::string undecided_text(int sought, int decided) {
-  if (decided >= sought) return "";
-  return fmt::format("; {} of {} {} undecided and may be weaker", sought - decided, sought,
-                     sought - decided == 1 ? "is" : "are");
+/// The least acceleration that a search over directions found.
+KeyNumber acceleration_answer(const Robustness& robust, int sought) {
+  const int undecided = sought - robust.directions;
+  KeyNumber out{"Horizontal acceleration", fmt::format("{:.3g} g", robust.acceleration_g), {}};
+  if (!(robust.acceleration_g > 0.0)) {
+    out.details.push_back(fmt::format("any push towards {:.4g} degrees makes it move", robust.azimuth_deg));
+    return out;
+  }
+  out.details.push_back(fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees",
+                                    robust.directions, robust.azimuth_deg));
+  if (undecided > 0)
+    out.details.push_back(fmt::format("{} of {} {} undecided and may be weaker", undecided, sought,
+                                      undecided == 1 ? "is" : "are"));
+  return out;
 }
 
-/// ", the widest 25 as 12 cracks over 14 m, none through the shell": hairlines form no crack.
-std::string text_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
-  if (cracks.empty()) return "";
+/// "25 of them, wider than 2 % of the widest, form 12 cracks, 14 m long in all" and "none goes through the
+/// shell": hairlines form no crack.
+std::vector<std::string> texts_of_cracks(const std::vector<ShellCrack>& cracks, size_t open_joints) {
+  if (cracks.empty()) return {};
   size_t joints = 0;
   double length = 0.0;
   for (const ShellCrack& crack : cracks) {
     joints += crack.joints.size();
     length += crack.length;
   }
-  const std::string text = fmt::format(
-      ", {}as {} {}", joints < open_joints ? fmt::format("the widest {} ", joints) : "",
-      counted(cracks.size(), "crack"), length > 0.0 ? "over " + length_text(length) : "at single points");
+  const std::string of_joints = joints == open_joints
+                                    ? (joints == 1 ? "it forms" : "they form")
+                                    : fmt::format("{} of them, wider than {:g} % of the widest, {}", joints,
+                                                  100.0 * kHairline, joints == 1 ? "forms" : "form");
+  std::vector<std::string> out{fmt::format(
+      "{} {}, {}", of_joints, counted(cracks.size(), "crack"),
+      length > 0.0 ? fmt::format("{} long{}", length_text(length), cracks.size() > 1 ? " in all" : "")
+                   : "at single points")};
   if (std::ranges::all_of(cracks, [](const ShellCrack& c) { return c.course == CrackCourse::layers; }))
-    return text;  // which have no faces to reach
+    return out;  // which have no faces to reach
   const auto through = std::ranges::count_if(cracks, &ShellCrack::through);
-  return fmt::format("{}, {} through the shell", text, through == 0 ? "none" : std::to_string(through));
+  out.push_back(through == 0 ? "none goes through the shell"
+                             : fmt::format("{} {} through the shell", through, through == 1 ? "goes" : "go"));
+  return out;
 }
 
 }  // namespace
@@ -196,30 +217,28 @@ VerdictWords verdict_words(const Evaluation& e) {
 KeyNumber margin_answer(const Evaluation& e) {
   if (e.summary.critical && e.summary.status != Status::unconverged) return critical_answer(e);
   if (const auto& robust = e.summary.robustness)
-    return {"Horizontal acceleration", fmt::format("{:.3g} g", robust->acceleration_g),
-            robust->acceleration_g > 0.0
-                ? fmt::format("borne in the weakest of {} directions, towards {:.4g} degrees{}",
-                              robust->directions, robust->azimuth_deg,
-                              undecided_text(e.scene.analysis.robustness, robust->directions))
-                : fmt::format("any push towards {:.4g} degrees makes it move", robust->azimuth_deg)};
+    return acceleration_answer(*robust, e.scene.analysis.robustness);
   if (e.scene.analysis.robustness > 0 && at_rest(e) && !e.summary.parts.empty())
-    return {"Horizontal acceleration", "not computed", "not all parts stand"};
+    return {"Horizontal acceleration", "not computed", {"not all parts stand"}};
   if (e.summary.sought) return sought_answer(*e.summary.sought);
-  if (searched(e)) return {"Margin", "unknown", e.summary.message};  // by a version that had no such record
+  if (searched(e)) return {"Margin", "unknown", {e.summary.message}};  // by a version that had no such record
   if (!at_rest(e)) {
     const bool sought = e.scene.analysis.robustness > 0, staged = is_stage(e.last.frame.role);
-    return {sought ? "Horizontal acceleration" : "Margin", falls(e.summary) ? "none" : "unknown",
-            lack_of_equilibrium(e.summary, e.last.frame.role) +
-                (sought   ? ""
-                 : staged ? "; to compute whether fresh mortar could hold it: " + command_for_margins(e)
-                          : "; to compute what it lacks: " + command_for_margins(e))};
+    KeyNumber out{sought ? "Horizontal acceleration" : "Margin",
+                  falls(e.summary) ? "none" : "unknown",
+                  {lack_of_equilibrium(e.summary, e.last.frame.role)}};
+    if (!sought)
+      out.details.push_back(
+          (staged ? "to compute whether fresh mortar could hold it: " : "to compute what it lacks: ") +
+          command_for_margins(e));
+    return out;
   }
   if (e.last.frame.role == FrameRole::path) {
     if (const double latest = std::ranges::max(e.times); latest > e.times.back())
       return largest_load(e, latest);
     if (!stands(e.summary.status) || e.summary.bears_loads_until_s) return end_of_path(e);
   }
-  return {"Margin", "not computed", "to compute it: " + command_for_margins(e)};
+  return {"Margin", "not computed", {"to compute it: " + command_for_margins(e)}};
 }
 
 std::string after_last_stage(const Evaluation& e) {
@@ -227,40 +246,43 @@ std::string after_last_stage(const Evaluation& e) {
 }
 
 KeyNumber pressure_number(double pressure, double strength_use) {
-  return {kLargestPressure,
-          pressure < 1e5 ? fmt::format("{:.3g} kPa", 1e-3 * pressure)
-                         : fmt::format("{:.3g} MPa", 1e-6 * pressure),
-          strength_use > 0.0
-              ? fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
-                            100.0 * strength_use)
-              : std::string("no joint is in tension; crushing was not checked")};
+  return {
+      kLargestPressure,
+      pressure < 1e5 ? fmt::format("{:.3g} kPa", 1e-3 * pressure)
+                     : fmt::format("{:.3g} MPa", 1e-6 * pressure),
+      strength_use > 0.0
+          ? std::vector{fmt::format("a joint uses at most {:.3g} % of its compressive or tensile strength",
+                                    100.0 * strength_use)}
+          : std::vector<std::string>{"no joint is in tension", "crushing was not checked"}};
 }
 
 std::optional<KeyNumber> crack_answer(const Evaluation& e) {
   if (!at_rest(e) || is_rigid(e)) return std::nullopt;
   if (supports_have_not_moved(e))
-    return KeyNumber{kWidestCrack, "not computed", "the supports move in time, and here they have not"};
+    return KeyNumber{kWidestCrack, "not computed", {"the supports move in time, and here they have not"}};
   const std::vector<Crack>& cracks = e.joint_cracks;
   if (cracks.empty())
-    return KeyNumber{kWidestCrack, "none",
-                     fmt::format("{}no joint is open by more than {}", after_last_stage(e),
-                                 length_text(e.last.joints.floor.length))};
+    return KeyNumber{kWidestCrack,
+                     "none",
+                     {fmt::format("{}no joint is open by more than {}", after_last_stage(e),
+                                  length_text(e.last.joints.floor.length))}};
   const Crack& widest = *std::max_element(cracks.begin(), cracks.end(), [](const Crack& a, const Crack& b) {
     return a.widest_gap < b.widest_gap;
   });
   const JointWrench& joint = e.last.joints.wrenches[widest.joint];
-  return KeyNumber{kWidestCrack, length_text(widest.widest_gap),
-                   fmt::format("{}in the {}joint between blocks {} and {}; {} open{}{}", after_last_stage(e),
-                               joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
-                               joint.block_a, joint.block_b,
-                               counted(cracks.size(), "joint") + (cracks.size() == 1 ? " is" : " are"),
-                               text_of_cracks(e.cracks, cracks.size()),
-                               has_default_stiffness(e) ? "; by the default stiffness of the joints" : "")};
+  std::vector<std::string> details{
+      fmt::format("{}in the {}joint between blocks {} and {}", after_last_stage(e),
+                  joint.kind == JointKind::other ? "" : std::string(to_string(joint.kind)) + " ",
+                  joint.block_a, joint.block_b),
+      fmt::format("{} {} open", counted(cracks.size(), "joint"), cracks.size() == 1 ? "is" : "are")};
+  for (std::string& text : texts_of_cracks(e.cracks, cracks.size())) details.push_back(std::move(text));
+  if (has_default_stiffness(e)) details.emplace_back("by the default stiffness of the joints");
+  return KeyNumber{kWidestCrack, length_text(widest.widest_gap), details};
 }
 
 std::vector<std::string> terminal_lines(const Evaluation& e, const std::string& report) {
   const auto line = [](const char* name, const KeyNumber& n) {
-    return fmt::format("  {:<9} {}; {}", name, n.value, n.detail);
+    return fmt::format("  {:<9} {}; {}", name, n.value, n.detail());
   };
   std::vector<std::string> out{fmt::format("{}: {}", verdict_words(e).words, reason_for_verdict(e))};
   KeyNumber margin = margin_answer(e);

@@ -6,7 +6,7 @@ namespace cupola {
 namespace {
 
 nlohmann::ordered_json to_json(const KeyNumber& number) {
-  return {{"name", number.name}, {"value", number.value}, {"detail", number.detail}};
+  return {{"name", number.name}, {"value", number.value}, {"details", number.details}};
 }
 
 nlohmann::ordered_json to_json(const std::optional<KeyNumber>& number) {

@@ -23,21 +23,21 @@ namespace {
 /// "0.2202 to 32.62 MN": what the search proves, with ∞ where there is no limit and ? where it did not end.
 KeyNumber range_number_of(const ForceRange& range) {
   if (range.min.outcome == RangeOutcome::undefined)
-    return {with_capital(range_name(range)), "undefined", "in every state a ratio to nothing"};
+    return {with_capital(range_name(range)), "undefined", {"in every state a ratio to nothing"}};
   const auto end = [&range](const RangeEnd& e, double value) {
     const std::string text = std::isinf(value)   ? (value > 0 ? "∞" : "-∞")
                              : std::isnan(value) ? ""
                                                  : range_number(value, range);
     return e.outcome == RangeOutcome::unconverged ? text + "?" : text;
   };
-  const std::string chosen =
-      range.chosen ? fmt::format("; the stiffness of the joints selects {}{}",
-                                 range_number(*range.chosen, range), range_unit(range).after_blank())
-                   : "";
+  std::vector<std::string> details{"certain for every history"};
+  if (range.chosen)
+    details.push_back(fmt::format("the stiffness of the joints selects {}{}",
+                                  range_number(*range.chosen, range), range_unit(range).after_blank()));
   return {with_capital(range_name(range)),
           fmt::format("{} to {}{}", end(range.min, least(range)), end(range.max, greatest(range)),
                       range_unit(range).after_blank()),
-          "certain for every history" + chosen};
+          details};
 }
 
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
@@ -49,7 +49,7 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
   }
   if (const PostSummary s = post_summary(e); s.largest_strength_use) {
     out->push_back(pressure_number(s.largest_pressure_Pa.value_or(0.0), *s.largest_strength_use));
-    out->back().detail.insert(0, after_last_stage(e));
+    out->back().details.front().insert(0, after_last_stage(e));
   }
   if (std::optional<KeyNumber> crack = crack_answer(e)) out->push_back(std::move(*crack));
 }
@@ -89,9 +89,11 @@ std::string verdict_html(const std::string& words, const std::string& reason, bo
 
 std::string numbers_html(const std::vector<KeyNumber>& numbers) {
   std::string out = "<div class=\"key-numbers\">\n";
-  for (const KeyNumber& n : numbers)
-    out += fmt::format("<div><span>{}</span><strong>{}</strong><small>{}</small></div>\n", html_text(n.name),
-                       html_text(n.value), html_text(n.detail));
+  for (const KeyNumber& n : numbers) {
+    out += fmt::format("<div><span>{}</span><strong>{}</strong>", html_text(n.name), html_text(n.value));
+    for (const std::string& detail : n.details) out += "<small>" + html_text(detail) + "</small>";
+    out += "</div>\n";
+  }
   return out + "</div>\n";
 }
 
@@ -121,10 +123,11 @@ std::string first_screen(const Evaluation& e, const std::vector<HistoryRow>& his
       for (const KeyNumber& largest : construction->largest)
         if (number.name == largest.name) number = largest;
   if (construction)
-    numbers.insert(numbers.begin(),
-                   {"Stages that stand",
-                    fmt::format("{} of {} solved", construction->standing, construction->table.rows.size()),
-                    construction->worst});
+    numbers.insert(
+        numbers.begin(),
+        {"Stages that stand",
+         fmt::format("{} of {} solved", construction->standing, construction->table.rows.size()),
+         construction->worst.empty() ? std::vector<std::string>{} : std::vector{construction->worst}});
   out += numbers_html(numbers);
   if (const std::string certain = certain_sentence(e); !certain.empty())
     out += "<p class=\"certain\">" + html_text(certain) + "</p>\n";

@@ -35,6 +35,7 @@ a { color: var(--link); } p, li, figcaption { max-width: 55rem; }
 .key-numbers { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 15rem), 1fr)); gap: .75rem; margin: 1rem 0; }
 .key-numbers div { border: 1px solid var(--line); border-radius: .3rem; padding: .5rem .8rem; }
 .key-numbers span, .key-numbers small { display: block; color: var(--soft); } .key-numbers strong { font-size: 1.5rem; }
+.key-numbers small { padding-left: .8rem; text-indent: -.8rem; margin-top: .1rem; }
 .first { display: flex; flex-direction: column; } .first > .certain { max-width: none; margin: .25rem 0 .5rem; font-size: .9rem; color: var(--soft); }
 .scroll { overflow-x: auto; max-width: 100%; }
 table { border-collapse: collapse; font-size: .875rem; margin: .5rem 0; font-variant-numeric: tabular-nums; }

@@ -74,26 +74,30 @@ std::string counted_from(const Evaluation& e, const std::string& before) {
   return from.empty() ? "" : fmt::format("{}{}", before, fmt::join(from, " and "));
 }
 
-/// "; 50 mm at the end", if that is less than the largest.
+/// "50 mm at the end", if that is less than the largest.
 std::string end_text(const LargestDisplacement& largest) {
-  return largest.at_end ? fmt::format("; {} at the end", length_text(*largest.at_end)) : "";
+  return largest.at_end ? fmt::format("{} at the end", length_text(*largest.at_end)) : "";
 }
 
 void add_numbers_in_time(const Evaluation& e, const std::vector<HistoryRow>& history,
                          std::vector<KeyNumber>* out) {
   const double threshold = e.scene.analysis.thresholds.collapse();
   const LargestDisplacement largest = largest_displacement(e);
-  out->push_back({"Largest displacement", length_text(largest.distance),
-                  fmt::format("at {:.4g} s{}{}", largest.time, counted_from(e, ", "), end_text(largest))});
+  out->push_back({"Largest displacement",
+                  length_text(largest.distance),
+                  {fmt::format("at {:.4g} s{}", largest.time, counted_from(e, ", "))}});
+  if (largest.at_end) out->back().details.push_back(end_text(largest));
   const auto first = std::find_if(history.begin(), history.end(), [threshold](const HistoryRow& row) {
     return row.max_displacement > threshold;
   });
   if (first != history.end())
     out->push_back({fmt::format("Moved more than {}", length_text(threshold)),
-                    fmt::format("at {:.4g} s", first->time), "first block to do so"});
+                    fmt::format("at {:.4g} s", first->time),
+                    {"first block to do so"}});
   if (!history.empty())
-    out->push_back({"Fastest point", fmt::format("{:.3g} m/s", history.back().max_speed),
-                    fmt::format("at the end{}", relative_to_ground(e))});
+    out->push_back({"Fastest point",
+                    fmt::format("{:.3g} m/s", history.back().max_speed),
+                    {fmt::format("at the end{}", relative_to_ground(e))}});
 }
 
 void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) {
@@ -101,14 +105,15 @@ void add_numbers_of_mechanism(const Evaluation& e, std::vector<KeyNumber>* out) 
   const double least = kSlow * farthest_block(e).displacement;
   out->push_back({"Blocks that begin to move",
                   fmt::format("{} of {}", count_moving(e, least), e.summary.free_blocks),
-                  fmt::format("faster than a tenth of the fastest; they form {}",
-                              counted(count_bodies(e, least), "body", "bodies"))});
+                  {"faster than a tenth of the fastest",
+                   fmt::format("they form {}", counted(count_bodies(e, least), "body", "bodies"))}});
   const std::optional<MovingJoints> joints = moving_joints(e);
   if (!joints) return;
   constexpr double kRounding = 1e-6;
   const auto add = [out](const char* name, double motion) {
-    out->push_back({name, fmt::format("{:.3g} %", motion > kRounding ? 100.0 * motion : 0.0),
-                    "of the speed of the fastest block"});
+    out->push_back({name,
+                    fmt::format("{:.3g} %", motion > kRounding ? 100.0 * motion : 0.0),
+                    {"of the speed of the fastest block"}});
   };
   add("Fastest sliding of a joint", joints->sliding.motion);
   add("Fastest opening of a joint", joints->opening.motion);
@@ -150,7 +155,7 @@ std::string largest_displacement_text(const Evaluation& e) {
   const LargestDisplacement largest = largest_displacement(e);
   return fmt::format("a block moves by {}{}{}", largest.at_end ? "up to " : "", length_text(largest.distance),
                      counted_from(e, " ")) +
-         (largest.at_end ? fmt::format(" (at {:.4g} s{})", largest.time, end_text(largest)) : "");
+         (largest.at_end ? fmt::format(" (at {:.4g} s; {})", largest.time, end_text(largest)) : "");
 }
 
 std::vector<KeyNumber> motion_numbers(const Evaluation& e, const std::vector<HistoryRow>& history) {
@@ -163,9 +168,10 @@ std::vector<KeyNumber> motion_numbers(const Evaluation& e, const std::vector<His
   else if (e.last.frame.role == FrameRole::step)
     add_numbers_in_time(e, history, &out);
   if (out.size() < kMost)
-    out.push_back({"Free blocks", fmt::format("{}", e.summary.free_blocks),
-                   fmt::format("in {}", counted(e.summary.joints, "joint"))});
-  if (out.size() < kMost) out.push_back({"Weight", force_text(e.summary.weight_N), "of the free blocks"});
+    out.push_back({"Free blocks",
+                   fmt::format("{}", e.summary.free_blocks),
+                   {fmt::format("in {}", counted(e.summary.joints, "joint"))}});
+  if (out.size() < kMost) out.push_back({"Weight", force_text(e.summary.weight_N), {"of the free blocks"}});
   return out;
 }
 

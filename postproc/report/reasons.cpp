@@ -191,13 +191,12 @@ std::string limit_text(const Evaluation& e) {
     text =
         fmt::format("Its joints can shrink to {:.4g} times their extent before it moves.", critical.stable);
   else
-    text = fmt::format("The case has {}{}: it stands {} {:.5g} and moves {} {:.5g}.",
+    text = fmt::format("The case has {}{}: it stands {} {:.5g} and moves {}.",
                        phrase(critical.parameter, *own), distance_from_limit(*factor, critical),
                        critical.stable < critical.moving ? "up to" : "down to", critical.stable,
-                       shows_bracket(critical)             ? "at"
-                       : critical.stable < critical.moving ? "beyond"
-                                                           : "below",
-                       critical.moving);
+                       shows_bracket(critical)             ? fmt::format("at {:.5g}", critical.moving)
+                       : critical.stable < critical.moving ? "beyond it"
+                                                           : "below it");
   if (critical.parameter == "joint_extent" && !holds)
     text = fmt::format("It moves unless its joints were {:.4g} times as large.", critical.stable);
   if (e.summary.friction_law == FrictionLaw::associated)

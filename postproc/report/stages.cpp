@@ -97,14 +97,15 @@ std::vector<KeyNumber> largest_of(const std::map<int, StagePeaks>& peaks) {
     const auto& [pressed, peak] = most(&StagePeaks::pressure);
     const auto& [strained, used] = most(&StagePeaks::strength_use);
     out.push_back(pressure_number(peak.pressure, used.strength_use));
-    out.back().detail =
-        fmt::format("in stage {}; {}{}", pressed,
-                    strained == pressed ? "" : fmt::format("in stage {}, ", strained), out.back().detail);
+    std::vector<std::string>& details = out.back().details;
+    if (strained != pressed) details.front().insert(0, fmt::format("in stage {}, ", strained));
+    details.insert(details.begin(), fmt::format("in stage {}", pressed));
   }
   const auto& [stage, peak] = most(&StagePeaks::widest_gap);
-  out.push_back(peak.widest_gap > 0.0
-                    ? KeyNumber{kWidestCrack, length_text(peak.widest_gap), fmt::format("in stage {}", stage)}
-                    : KeyNumber{kWidestCrack, "none", "in none of the stages"});
+  out.push_back(
+      peak.widest_gap > 0.0
+          ? KeyNumber{kWidestCrack, length_text(peak.widest_gap), {fmt::format("in stage {}", stage)}}
+          : KeyNumber{kWidestCrack, "none", {"in none of the stages"}});
   return out;
 }
 

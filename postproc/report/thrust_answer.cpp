@@ -115,17 +115,18 @@ std::string at_level(const std::string& name, const RingSum& cut) {
   return fmt::format("at the {}, z = {:g} m", name, std::round(cut.height / kShown) * kShown + 0.0);
 }
 
-/// "at the springing, z = 0 m", or "at the base, z = -4.5 m; at the springing, z = 0 m, 21.3 kN". The courses
-/// of an arch are counted from one side: where the sides differ, the other value is not known. Nor is it where
-/// supports hold higher courses, whose push is none of the sum over one course.
-std::string level_text(const Evaluation& e, const Sheet& sheet, const std::vector<Thrust>& thrusts) {
+/// "at the springing, z = 0 m", or "at the base, z = -4.5 m" and "at the springing, z = 0 m: 21.3 kN". The
+/// courses of an arch are counted from one side: where the sides differ, the other value is not known. Nor is
+/// it where supports hold higher courses, whose push is none of the sum over one course.
+std::vector<std::string> level_texts(const Evaluation& e, const Sheet& sheet,
+                                     const std::vector<Thrust>& thrusts) {
   const RingSum &base = base_of(e, sheet), *springing = springing_of(e, sheet);
   const bool held_higher = is_held_higher(thrusts);
   const std::string at_base =
       at_level(springing == &base ? "springing" : "base", base) + (held_higher ? kAndHigher : "");
-  if (!springing || springing == &base || differ(thrusts) || held_higher) return at_base;
-  return fmt::format("{}; {}, {}", at_base, at_level("springing", *springing),
-                     force_text(springing->radial_thrust));
+  if (!springing || springing == &base || differ(thrusts) || held_higher) return {at_base};
+  return {at_base,
+          fmt::format("{}: {}", at_level("springing", *springing), force_text(springing->radial_thrust))};
 }
 
 /// Names of the members whose courses interlock.
@@ -164,30 +165,32 @@ std::string least_to_greatest(const ForceRange& range) {
                      end_text(range.max, greatest(range), range), range_unit(range).after_blank());
 }
 
-/// "14 kN/m to 16 kN/m over 5 m of support; at the base, z = 0 m", of the stack whose thrust the range is.
-std::string place_of_range(const Evaluation& e, const Sheet& sheet, const ForceRange& range) {
+/// "14 kN/m to 16 kN/m over 5 m of support" and "at the base, z = 0 m", of the stack of the range.
+std::vector<std::string> place_of_range(const Evaluation& e, const Sheet& sheet, const ForceRange& range) {
   const Thrust counted = counted_by_range(e, sheet);
   const double length = length_of(e, sheet, counted);
-  std::string text;
+  std::vector<std::string> out;
   const bool is_none = least(range) == 0.0 && greatest(range) == 0.0;
   const bool is_shared = counted.on_blocks && !counted.supports.empty();  // in parts that it does not know
   if (length > 0.0 && !is_none && !is_shared && std::isfinite(least(range)) && std::isfinite(greatest(range)))
-    text = fmt::format("{}/m to {}/m over {} of support; ", force_text(least(range) / length),
-                       force_text(greatest(range) / length), length_text(length));
+    out.push_back(fmt::format("{}/m to {}/m over {} of support", force_text(least(range) / length),
+                              force_text(greatest(range) / length), length_text(length)));
   const RingSum& base = base_of(e, sheet);
   std::string level = springing_of(e, sheet) == &base ? "springing" : "base";
   if (counted.towards) level += " towards " + direction_text(*counted.towards);
-  return text + at_level(level, base) + (counted.held_higher ? kAndHigher : "");
+  out.push_back(at_level(level, base) + (counted.held_higher ? kAndHigher : ""));
+  return out;
 }
 
-/// "12 kN on each of 4 supports" or "3 kN to 12 kN, depending on the support"; "" for one support.
+/// "12 kN on each of 4 supports" or "between 3 kN and 12 kN on each of 4 supports"; "" for one support.
 std::string spread_over(const std::vector<Reaction>& supports) {
   if (supports.size() < 2) return "";
   const auto [lowest, highest] = std::ranges::minmax(supports, {}, &Reaction::outward);
   if (alike(lowest.outward, highest.outward))
     return fmt::format("{} on each of {}", force_text(highest.outward), counted(supports.size(), "support"));
-  return fmt::format("{} to {}, depending on the support",
-                     lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward));
+  return fmt::format("between {} and {} on each of {}",
+                     lowest.outward == 0.0 ? "0" : force_text(lowest.outward), force_text(highest.outward),
+                     counted(supports.size(), "support"));
 }
 
 /// What the supports under a vault on other members bear outwards: these push, too. "" where it is the thrust.
@@ -206,26 +209,26 @@ std::string under_the_bearers(const Evaluation& e, const std::vector<const Sheet
 }
 
 KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
-  std::string detail = "certain for every history";
+  std::vector<std::string> details{"certain for every history"};
   if (range.chosen)
-    detail += fmt::format("; the stiffness of the joints selects {}{}", range_number(*range.chosen, range),
-                          range_unit(range).after_blank());
+    details.push_back(fmt::format("the stiffness of the joints selects {}{}",
+                                  range_number(*range.chosen, range), range_unit(range).after_blank()));
   const std::vector<const Sheet*> of_model = pushing_sheets(e.assembly), standing = pushing_sheets(e);
-  if (of_model.size() > 1) detail += "; of " + of_model.front()->name;
+  if (of_model.size() > 1) details.push_back("of " + of_model.front()->name);
   if (std::ranges::find(standing, of_model.front()) != standing.end() && !e.rings.empty()) {
-    detail += "; " + place_of_range(e, *of_model.front(), range);
+    for (std::string& text : place_of_range(e, *of_model.front(), range)) details.push_back(std::move(text));
     if (const std::string under = under_the_bearers(e, standing); !under.empty())
-      detail += fmt::format("; in the state selected {}, whose range is that of a `reaction`", under);
+      details.push_back(fmt::format("in the state selected {}, whose range is that of a `reaction`", under));
   }
   if (least(range) < 0.0) {
-    detail += "; inwards where negative";
+    details.emplace_back("inwards where negative");
     if (const auto tension = net_hoop_tension(e, least(range)))
-      detail += pull_of_rings(e.scene.geometry, *tension);
+      details.back() += pull_of_rings(e.scene.geometry, *tension);
   }
   for (const ForceRange& other : e.summary.ranges)
     if (other.quantity.starts_with("thrust of "))
-      detail += fmt::format("; {} {}", other.quantity.substr(7), least_to_greatest(other));
-  return {"Outward thrust", least_to_greatest(range), detail};
+      details.push_back(fmt::format("{} {}", other.quantity.substr(7), least_to_greatest(other)));
+  return {"Outward thrust", least_to_greatest(range), details};
 }
 
 /// What supports bear of the thrust per metre; "" where those of other courses bear it, too.
@@ -271,11 +274,13 @@ std::string doubt_of(const Evaluation& e) {
 }
 
 KeyNumber thrust_without_courses(const Evaluation& e, double thrust) {
-  std::string detail = after_last_stage(e) + (thrust < 0.0 ? "negative: inwards; the sum over the supports"
-                                                           : "the sum over the supports");
+  std::vector<std::string> details;
+  if (thrust < 0.0) details.emplace_back("negative: inwards");
+  details.emplace_back("the sum over the supports");
+  details.front().insert(0, after_last_stage(e));
   for (const std::string& text : {spread_over(e.reactions), share_of_weight(e, thrust), doubt_of(e)})
-    if (!text.empty()) detail += "; " + text;
-  return {"Outward thrust", force_text(thrust), detail};
+    if (!text.empty()) details.push_back(text);
+  return {"Outward thrust", force_text(thrust), details};
 }
 
 }  // namespace
@@ -300,14 +305,14 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (!alone) along = fmt::format("of {}{}{}", shell.name, along.empty() ? "" : ", ", along);
   add(sides_text(thrusts));
   add(std::move(along));
-  add(level_text(e, shell, thrusts));
+  for (std::string& text : level_texts(e, shell, thrusts)) add(std::move(text));
   if (!thrusts.front().on_blocks) add(spread_over(thrusts.front().supports));
   if (alone) add(share_of_weight(e, thrusts.front().force));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(under_the_bearers(e, pushing));
   add(doubt_of(e));
-  return KeyNumber{"Outward thrust", values_text(thrusts),
-                   after_last_stage(e) + fmt::format("{}", fmt::join(details, "; "))};
+  details.front().insert(0, after_last_stage(e));
+  return KeyNumber{"Outward thrust", values_text(thrusts), details};
 }
 
 }  // namespace cupola

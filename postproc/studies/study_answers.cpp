@@ -24,7 +24,7 @@ std::string short_name(const std::string& run) {
 }
 
 KeyNumber answer_of(RunFiles& run, const std::string& key) {
-  return {run.answer(key + ".name"), run.answer(key + ".value"), run.answer(key + ".detail")};
+  return {run.answer(key + ".name"), run.answer(key + ".value"), run.answers(key + ".details")};
 }
 
 struct Margin {
@@ -60,10 +60,13 @@ std::optional<KeyNumber> worst_cause(const std::vector<std::string>& names, RunC
     if (crack > widest) widest = crack, worst = short_name(name);
   }
   if (finished == 0) return std::nullopt;
-  return KeyNumber{
-      "It stands after settlement of", fmt::format("{} of {}", standing, counted(finished, "support")),
-      worst.empty() ? (standing == finished ? "one at a time; no joint opens" : "one at a time")
-                    : fmt::format("one at a time; widest crack {} ({})", length_text(widest), worst)};
+  std::vector<std::string> details{"one at a time"};
+  if (!worst.empty())
+    details.push_back(fmt::format("widest crack {} ({})", length_text(widest), worst));
+  else if (standing == finished)
+    details.emplace_back("no joint opens");
+  return KeyNumber{"It stands after settlement of",
+                   fmt::format("{} of {}", standing, counted(finished, "support")), details};
 }
 
 /// What was not computed among the runs that the answers name.
@@ -97,7 +100,7 @@ Table margins_table(const std::vector<Margin>& margins) {
   for (const Margin& margin : margins)
     t.rows.push_back({margin.answer.name,
                       margin.factor ? Table::Cell(*margin.factor) : Table::Cell(std::string()),
-                      margin.answer.value, margin.answer.detail});
+                      margin.answer.value, margin.answer.detail()});
   return t;
 }
 
@@ -154,7 +157,7 @@ std::string add_answers(const StudyAnswers& answers, const std::vector<NotComput
   std::vector<KeyNumber> numbers;
   if (!margins.empty() && margins[0].factor)
     numbers.push_back({"Least margin: " + margins[0].answer.name,
-                       fmt::format("factor {:.3g}", *margins[0].factor), margins[0].answer.detail});
+                       fmt::format("factor {:.3g}", *margins[0].factor), margins[0].answer.details});
   const std::string thrust = runs.finished(answers.thrust) ? answers.thrust : answers.verdict;
   if (runs.finished(thrust))
     if (KeyNumber number = answer_of(runs.run(thrust), "thrust"); !number.name.empty())
@@ -165,7 +168,7 @@ std::string add_answers(const StudyAnswers& answers, const std::vector<NotComput
   if (auto cause = worst_cause(answers.causes, runs)) numbers.push_back(std::move(*cause));
   page->add(numbers_html(numbers));
   for (const KeyNumber& number : numbers)
-    text += fmt::format("  {}: {}; {}\n", number.name, number.value, number.detail);
+    text += fmt::format("  {}: {}; {}\n", number.name, number.value, number.detail());
   page->add("</div>\n<h2>Margins, least first</h2>\n");
   const Table table = margins_table(margins);
   page->add_table(table);

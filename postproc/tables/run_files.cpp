@@ -56,6 +56,15 @@ std::string near_key(const UnorderedJson& root, const std::string& key) {
   return near.empty() ? "" : fmt::format("; did you mean {}{}?", parent, near);
 }
 
+/// Those of a list; none if there is no list.
+std::vector<std::string> texts_of(const UnorderedJson* list) {
+  std::vector<std::string> texts;
+  if (list && list->is_array())
+    for (const UnorderedJson& text : *list)
+      if (text.is_string()) texts.push_back(text.get<std::string>());
+  return texts;
+}
+
 }  // namespace
 
 struct RunFiles::Summaries {
@@ -64,6 +73,10 @@ struct RunFiles::Summaries {
   const UnorderedJson& results_of(const std::string& folder) {
     if (!results) results = read_json(folder + "/results/summary.json");
     return *results;
+  }
+  const UnorderedJson& answers_of(const std::string& folder) {
+    if (!answers) answers = read_json(folder + "/post/answers.json");
+    return *answers;
   }
   /// Throws InputError if it evaluates other results than those beside it.
   const UnorderedJson& post_of(const std::string& folder) {
@@ -84,11 +97,7 @@ RunFiles::RunFiles(std::string folder)
 RunFiles::~RunFiles() = default;
 
 std::vector<std::string> RunFiles::warnings() {
-  std::vector<std::string> texts;
-  if (const UnorderedJson* list = descend(summaries_->post_of(folder_), "warnings"); list && list->is_array())
-    for (const UnorderedJson& text : *list)
-      if (text.is_string()) texts.push_back(text.get<std::string>());
-  return texts;
+  return texts_of(descend(summaries_->post_of(folder_), "warnings"));
 }
 
 std::string RunFiles::text_of_results(const std::string& key) {
@@ -113,9 +122,12 @@ std::string RunFiles::found_instead() {
 }
 
 std::string RunFiles::answer(const std::string& key) {
-  if (!summaries_->answers) summaries_->answers = read_json(folder_ + "/post/answers.json");
-  const UnorderedJson* text = descend(*summaries_->answers, key);
+  const UnorderedJson* text = descend(summaries_->answers_of(folder_), key);
   return text && text->is_string() ? text->get<std::string>() : "";
+}
+
+std::vector<std::string> RunFiles::answers(const std::string& key) {
+  return texts_of(descend(summaries_->answers_of(folder_), key));
 }
 
 std::string RunFiles::revision() {

@@ -26,6 +26,8 @@ class RunFiles {
   std::string revision();  ///< of cupola-solve, from the `program_version` in results/summary.json
   /// Text of post/answers.json, e.g. `verdict.words`; "" if the run has no such answer.
   std::string answer(const std::string& key);
+  /// A list of texts, e.g. `margin.details`.
+  std::vector<std::string> answers(const std::string& key);
   /// Number `results.KEY` or `post.KEY` of the two summaries, or `case.KEY` of the case as it was run. Dots
   /// in KEY descend into maps and, by index, into lists. Booleans count as 0 and 1. InputError if there is no
   /// such number.

@@ -59,10 +59,11 @@ TEST(HoopTension, AnInwardThrustOfRingsIsTheirPull) {
   ASSERT_LT(least, 0.0);
   const std::string net = force_text(-least / (2.0 * std::numbers::pi));
   const std::string pull = "a hoop tension of " + net + " net of compression,";
-  EXPECT_NE(thrust_answer(running)->detail.find(pull), std::string::npos) << thrust_answer(running)->detail;
-  EXPECT_EQ(thrust_answer(stack)->detail.find("hoop tension"), std::string::npos)
-      << thrust_answer(stack)->detail;
-  EXPECT_TRUE(thrust_answer(running)->detail.ends_with("try `bond: {type: stack}`"));
+  EXPECT_NE(thrust_answer(running)->detail().find(pull), std::string::npos)
+      << thrust_answer(running)->detail();
+  EXPECT_EQ(thrust_answer(stack)->detail().find("hoop tension"), std::string::npos)
+      << thrust_answer(stack)->detail();
+  EXPECT_TRUE(thrust_answer(running)->detail().ends_with("try `bond: {type: stack}`"));
   const std::vector<std::string> without_states = range_of_thrust(drum, "running", false).warnings;
   ASSERT_EQ(without_states.size(), 1u);
   EXPECT_NE(without_states[0].find("at its least end the courses carry at least " + net), std::string::npos)
@@ -72,8 +73,8 @@ TEST(HoopTension, AnInwardThrustOfRingsIsTheirPull) {
   geometry.members = {geometry};
   geometry.members[0].name = "drum";
   geometry.bond = StackBond{};
-  EXPECT_TRUE(thrust_answer(on_a_drum)->detail.ends_with("try `bond: {type: stack}` of drum"))
-      << thrust_answer(on_a_drum)->detail;
+  EXPECT_TRUE(thrust_answer(on_a_drum)->detail().ends_with("try `bond: {type: stack}` of drum"))
+      << thrust_answer(on_a_drum)->detail();
 }
 
 }  // namespace

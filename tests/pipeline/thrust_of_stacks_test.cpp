@@ -46,7 +46,7 @@ TEST(ThrustOfStacks, AHalfArchPushesOnItsWallAsOnItsSpringing) {
     EXPECT_GT(thrusts[0].force, 0.1 * e.summary.weight_N);
     EXPECT_NEAR(thrusts[0].force, thrusts[1].force, rounding);
     for (const Reaction& r : e.reactions) EXPECT_NEAR(r.outward, thrusts[0].force, rounding);
-    EXPECT_TRUE(thrust_answer(e)->detail.starts_with("at most ")) << thrust_answer(e)->detail;
+    EXPECT_TRUE(thrust_answer(e)->detail().starts_with("at most ")) << thrust_answer(e)->detail();
     ranges.push_back(range_of_thrust(scene, e.assembly));
     EXPECT_LE(ranges.back().min.value.value(), thrusts[0].force + rounding);
     EXPECT_GE(ranges.back().max.value.value(), thrusts[0].force - rounding);
@@ -105,7 +105,7 @@ TEST(ThrustOfStacks, ARangeOfTheThrustIsThatOfEachStack) {
   // The requested gap of a range, 1e-6 of its values, twice.
   EXPECT_NEAR(e.summary.ranges[1].min.value.value() / small.min.value.value(), 1.0, 1e-5);
   EXPECT_NEAR(e.summary.ranges[1].max.value.value() / small.max.value.value(), 1.0, 1e-5);
-  const std::string detail = thrust_answer(e)->detail;
+  const std::string detail = thrust_answer(e)->detail();
   EXPECT_NE(detail.find("; of large; "), std::string::npos) << detail;
   EXPECT_NE(detail.find("; of small "), std::string::npos) << detail;
 }
@@ -136,7 +136,7 @@ TEST(ThrustOfStacks, WhatPushesBesideAnArchIsNamed) {
                           : "")),
         folder);
     ASSERT_TRUE(at_rest(e)) << e.summary.message;
-    const std::string detail = thrust_answer(e)->detail;
+    const std::string detail = thrust_answer(e)->detail();
     const std::string borne = fmt::format("; the supports bear outwards {} on each of 2 supports",
                                           force_text(e.reactions[0].outward));
     EXPECT_EQ(detail.find(borne) != std::string::npos, has_walls) << detail;

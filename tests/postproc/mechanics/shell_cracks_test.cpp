@@ -185,14 +185,16 @@ TEST(ShellCracks, TheFirstScreenTellsHairlinesFromCracks) {
     e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
     e.cracks = vault.cracks();
     e.scene.joints.compliance.relative = relative;
-    return crack_answer(e).value().detail;
+    return crack_answer(e).value().detail();
   };
-  EXPECT_NE(said().find("; 6 joints are open, as 2 cracks over 1"), std::string::npos) << said();
+  EXPECT_NE(said().find("; 6 joints are open; they form 2 cracks, 1"), std::string::npos) << said();
   EXPECT_EQ(said().find("default stiffness"), std::string::npos) << said();
   relative = Compliance::kRelative;
   EXPECT_NE(said().find("; by the default stiffness of the joints"), std::string::npos) << said();
   gaps[{3, 6}] = {7e-5, 7e-5};
-  EXPECT_NE(said().find("; 7 joints are open, the widest 6 as 2 cracks over 1"), std::string::npos) << said();
+  EXPECT_NE(said().find("; 7 joints are open; 6 of them, wider than 2 % of the widest, form 2 cracks, 1"),
+            std::string::npos)
+      << said();
 }
 
 /// The unrolled vault, each block as long as its head joints are apart.

@@ -17,11 +17,11 @@ TEST(LimitAnswers, TheMarginSaysWhatWasSoughtAndFound) {
   e.summary.sought = Sought{"critical acceleration", "no limit from 0 to 0.02", both, "widen it", ""};
   EXPECT_EQ(margin_answer(e).name, "Critical acceleration");
   EXPECT_EQ(margin_answer(e).value, "no limit from 0 to 0.02");
-  EXPECT_EQ(margin_answer(e).detail, both + "; widen it");
+  EXPECT_EQ(margin_answer(e).detail(), both + "; widen it");
   e.summary.sought->found = "";
   e.summary.sought->also = "the case itself stands";
   EXPECT_EQ(margin_answer(e).value, "unknown");
-  EXPECT_EQ(margin_answer(e).detail, both + "; widen it; the case itself stands");
+  EXPECT_EQ(margin_answer(e).detail(), both + "; widen it; the case itself stands");
 }
 
 // Summaries of earlier versions have no record.
@@ -33,7 +33,7 @@ TEST(LimitAnswers, WithoutARecordTheMessageSaysWhatWasFound) {
     e.last.frame.role = role;
     EXPECT_EQ(margin_answer(e).name, "Margin");
     EXPECT_EQ(margin_answer(e).value, "unknown");
-    EXPECT_EQ(margin_answer(e).detail, e.summary.message);
+    EXPECT_EQ(margin_answer(e).detail(), e.summary.message);
   }
 }
 
@@ -45,22 +45,22 @@ TEST(LimitAnswers, ASearchForAccelerationsSaysWhatItFound) {
       Sought{"horizontal acceleration", "no limit", "no horizontal acceleration makes it move", "", ""};
   EXPECT_EQ(margin_answer(e).name, "Horizontal acceleration");
   EXPECT_EQ(margin_answer(e).value, "no limit");
-  EXPECT_EQ(margin_answer(e).detail, "no horizontal acceleration makes it move");
+  EXPECT_EQ(margin_answer(e).detail(), "no horizontal acceleration makes it move");
   e.summary.sought->found = "";
   e.summary.robustness = Robustness{8, 0.0, 1e-8, 45.0};
   EXPECT_EQ(margin_answer(e).value, "0 g");
-  EXPECT_EQ(margin_answer(e).detail, "any push towards 45 degrees makes it move");
+  EXPECT_EQ(margin_answer(e).detail(), "any push towards 45 degrees makes it move");
   e.summary.robustness = Robustness{8, 0.156, 0.1561, 90.0};
-  EXPECT_EQ(margin_answer(e).detail, "borne in the weakest of 8 directions, towards 90 degrees");
+  EXPECT_EQ(margin_answer(e).detail(), "borne in the weakest of 8 directions, towards 90 degrees");
   e.summary.robustness->directions = 7;
   EXPECT_EQ(
-      margin_answer(e).detail,
+      margin_answer(e).detail(),
       "borne in the weakest of 7 directions, towards 90 degrees; 1 of 8 is undecided and may be weaker");
   e.summary.robustness.reset();
   e.summary.sought.reset();
   e.summary.parts = {{1, 2, Status::stable}, {3, 1, Status::moving}};
   EXPECT_EQ(margin_answer(e).value, "not computed") << "of what stands in part";
-  EXPECT_EQ(margin_answer(e).detail, "not all parts stand");
+  EXPECT_EQ(margin_answer(e).detail(), "not all parts stand");
 }
 
 // The assessment of a case that falls does not advise to run an assessment.
@@ -72,7 +72,7 @@ TEST(LimitAnswers, NoAccelerationIsLeftToWhatFalls) {
   const KeyNumber margin = margin_answer(e);
   EXPECT_EQ(margin.name, "Horizontal acceleration");
   EXPECT_EQ(margin.value, "none");
-  EXPECT_EQ(margin.detail, "no equilibrium exists");
+  EXPECT_EQ(margin.detail(), "no equilibrium exists");
 }
 
 Evaluation limit_of(LimitSearch::Parameter parameter, double low, double stable, double moving) {
@@ -91,8 +91,8 @@ TEST(LimitAnswers, LoadsThatHoldItUpAreNeeded) {
   EXPECT_EQ(verdict_words(e).words, "It stands");
   const std::string reason = reason_for_verdict(e);
   EXPECT_NE(reason.find(", 2 times what it needs: it stands down to 0.5"), std::string::npos) << reason;
-  EXPECT_NE(margin_answer(e).detail.find("2 times what it needs"), std::string::npos)
-      << margin_answer(e).detail;
+  EXPECT_NE(margin_answer(e).detail().find("2 times what it needs"), std::string::npos)
+      << margin_answer(e).detail();
   const Evaluation short_of_it = limit_of(LimitSearch::Parameter::load, 0.0, 5.0, 4.9999);
   EXPECT_EQ(verdict_words(short_of_it).words, "It falls");
   EXPECT_EQ(reason_for_verdict(short_of_it).find("bears only"), std::string::npos);
@@ -154,8 +154,8 @@ TEST(LimitAnswers, ALeastLoadNamesTheLargestOneToo) {
   Evaluation e = limit_of(LimitSearch::Parameter::load, 0.0, 0.0366, 0.0365);
   e.summary.sought =
       Sought{"critical load", "", "an admissible state at 0.0366", "", "it moves again beyond 1.2418"};
-  EXPECT_NE((margin_answer(e).detail + ";").find("; it moves again beyond 1.2418;"), std::string::npos)
-      << margin_answer(e).detail;
+  EXPECT_NE((margin_answer(e).detail() + ";").find("; it moves again beyond 1.2418;"), std::string::npos)
+      << margin_answer(e).detail();
 }
 
 // Forces that do not balance at one end of the bracket decide nothing.
@@ -168,8 +168,8 @@ TEST(LimitAnswers, WhatStandsBetweenTwoValuesOnlyHasBoth) {
       Sought{"critical acceleration", "not found", "the structure moves at both ends of the bracket, 0 and 1",
              "", "it stands from 0.3333 up to 0.6667"};
   EXPECT_EQ(margin_answer(e).value, "not found");
-  EXPECT_TRUE(margin_answer(e).detail.ends_with("0 and 1; it stands from 0.3333 up to 0.6667"))
-      << margin_answer(e).detail;
+  EXPECT_TRUE(margin_answer(e).detail().ends_with("0 and 1; it stands from 0.3333 up to 0.6667"))
+      << margin_answer(e).detail();
 }
 
 TEST(LimitAnswers, AThicknessThatMissedItsWidthIsUndecided) {
@@ -188,7 +188,7 @@ TEST(LimitAnswers, AnUndecidedLimitIsNoMargin) {
   EXPECT_EQ(verdict_words(e).words, "Undecided");
   EXPECT_EQ(margin_answer(e).name, "Critical joint extent");
   EXPECT_EQ(margin_answer(e).value, "unknown");
-  EXPECT_EQ(margin_answer(e).detail, "forces that do not balance the loads at 0.055");
+  EXPECT_EQ(margin_answer(e).detail(), "forces that do not balance the loads at 0.055");
   EXPECT_EQ(reason_for_verdict(e).find("shrink"), std::string::npos) << reason_for_verdict(e);
   EXPECT_TRUE(certain_sentence(e).starts_with("Nothing is certain")) << certain_sentence(e);
 }
@@ -198,7 +198,7 @@ TEST(LimitAnswers, AStressBeyondTheCompressiveStrengthIsItsFall) {
   Evaluation e = limit_of(LimitSearch::Parameter::peak_stress, 0.0, 1.7208e5, 1.7207e5);
   EXPECT_EQ(verdict_words(e).words, "It stands") << "strength without limit";
   EXPECT_EQ(margin_answer(e).name, "Least peak stress");
-  EXPECT_NE(margin_answer(e).detail.find("no forces that balance the loads have less"), std::string::npos);
+  EXPECT_NE(margin_answer(e).detail().find("no forces that balance the loads have less"), std::string::npos);
   EXPECT_NE(certain_sentence(e).find("it may need a higher peak stress"), std::string::npos);
   e.scene.joints.strength.compression = 1.6e5;
   EXPECT_EQ(verdict_words(e).words, "It falls");

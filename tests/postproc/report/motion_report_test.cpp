@@ -36,7 +36,7 @@ bool has(const std::string& text, const std::string& words) {
 
 TEST(ReturnedMotion, CollapseSaysThatItIsAtRestAtItsEnd) {
   const Evaluation e = returned(Status::collapsed, 0.1);
-  EXPECT_EQ(margin_answer(e).detail.find("it rests only after it collapsed; to compute"), 0u);
+  EXPECT_EQ(margin_answer(e).detail().find("it rests only after it collapsed; to compute"), 0u);
   const std::string reason = reason_for_verdict(e);
   EXPECT_TRUE(has(reason,
                   "Within 12 s a block moves by up to 154 mm relative to the ground (at 3.05 s; 50 mm at the "
@@ -46,7 +46,7 @@ TEST(ReturnedMotion, CollapseSaysThatItIsAtRestAtItsEnd) {
   const std::vector<KeyNumber> numbers = motion_numbers(e, {});
   ASSERT_FALSE(numbers.empty());
   EXPECT_EQ(numbers.front().value, "154 mm");
-  EXPECT_EQ(numbers.front().detail, "at 3.05 s, relative to the ground; 50 mm at the end");
+  EXPECT_EQ(numbers.front().detail(), "at 3.05 s, relative to the ground; 50 mm at the end");
   EXPECT_TRUE(has(motion_sentences(e, {}).front(), "largest displacement of the motion is 0.154 m"));
 }
 
@@ -59,7 +59,7 @@ TEST(Mechanism, HasNoMoreBodiesThanBlocks) {
   e.summary.status = Status::moving;
   const KeyNumber number = motion_numbers(e, {}).at(0);
   EXPECT_EQ(number.value, "1 of 3");
-  EXPECT_TRUE(number.detail.ends_with("they form 1 body")) << number.detail;
+  EXPECT_TRUE(number.detail().ends_with("they form 1 body")) << number.detail();
 }
 
 TEST(ReturnedMotion, RestSaysHowFarItWent) {

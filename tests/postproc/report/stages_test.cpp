@@ -113,7 +113,7 @@ TEST(Stages, FirstScreenHasTheMostOfAllStages) {
                                       {{1, {1.087e6, 1.0, 1.09e-3}}, {2, {1.96e5, 0.307, 0.0}}});
   ASSERT_EQ(c.largest.size(), 2u);
   EXPECT_EQ(c.largest[0].value, "1.09 MPa");
-  EXPECT_EQ(c.largest[0].detail,
+  EXPECT_EQ(c.largest[0].detail(),
             "in stage 1; a joint uses at most 100 % of its compressive or tensile strength");
   EXPECT_EQ(c.largest[1].value, "1.09 mm");
   const size_t pressure = c.table.columns.size() - 3;
