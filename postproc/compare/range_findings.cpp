@@ -9,19 +9,6 @@
 #include "postproc/tables/range_values.hpp"
 
 namespace cupola {
-namespace {
-
-/// "12.1 to 40 MN"; "unknown" for an end that was not found.
-std::string limits_text(const ForceRange& range) {
-  const auto end = [&range](double value) {
-    if (std::isnan(value)) return std::string("unknown");
-    return std::isinf(value) ? std::string(value > 0.0 ? "∞" : "-∞") : range_number(value, range);
-  };
-  return fmt::format("{} to {}{}", end(least(range)), end(greatest(range)), range_unit(range).after_blank());
-}
-
-}  // namespace
-
 std::vector<std::vector<ForceRange>> ranges_of(const std::vector<PostSummary>& runs) {
   std::vector<std::vector<ForceRange>> ranges;
   for (const PostSummary& run : runs) ranges.push_back(run.ranges);
@@ -39,7 +26,7 @@ std::vector<std::string> range_findings(const std::vector<PostSummary>& runs,
     for (size_t i = 0; i < runs.size(); ++i) {
       const ForceRange* range = range_named(quantity.quantity, runs[i].ranges);
       if (range == nullptr) continue;
-      ranges.push_back(fmt::format("{} in {}", limits_text(*range), labels[i]));
+      ranges.push_back(fmt::format("{} in {}", range_ends(*range), labels[i]));
       const double width = greatest(*range) - least(*range);
       if (width < narrowest) {
         next = narrowest;
@@ -65,7 +52,7 @@ void add_range_rows(const std::vector<PostSummary>& runs, Table* table) {
         fmt::format("Between which values the {} lies, whatever the history.", range_name(quantity))};
     for (const PostSummary& run : runs) {
       const ForceRange* range = range_named(quantity.quantity, run.ranges);
-      row.emplace_back(range ? limits_text(*range) : std::string("-"));
+      row.emplace_back(range ? range_ends(*range) : std::string("-"));
     }
     table->rows.push_back(std::move(row));
   }

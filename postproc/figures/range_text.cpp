@@ -24,4 +24,14 @@ std::string range_number(double value, const ForceRange& range) {
   return fmt::format("{:.4g}", range_unit(range).per_si * value);
 }
 
+std::string range_ends(const ForceRange& range) {
+  const auto text = [&range](const RangeEnd& end, double value) -> std::string {
+    if (std::isnan(value)) return "unknown";
+    const std::string number = std::isinf(value) ? (value > 0.0 ? "∞" : "-∞") : range_number(value, range);
+    return end.outcome == RangeOutcome::unconverged ? number + "?" : number;
+  };
+  const std::string from = text(range.min, least(range)), to = text(range.max, greatest(range));
+  return (from == to ? from : fmt::format("{} to {}", from, to)) + range_unit(range).after_blank();
+}
+
 }  // namespace cupola

@@ -20,24 +20,14 @@
 namespace cupola {
 namespace {
 
-/// "0.2202 to 32.62 MN": what the search proves, with ∞ where there is no limit and ? where it did not end.
 KeyNumber range_number_of(const ForceRange& range) {
   if (range.min.outcome == RangeOutcome::undefined)
     return {with_capital(range_name(range)), "undefined", {"in every state a ratio to nothing"}};
-  const auto end = [&range](const RangeEnd& e, double value) {
-    const std::string text = std::isinf(value)   ? (value > 0 ? "∞" : "-∞")
-                             : std::isnan(value) ? ""
-                                                 : range_number(value, range);
-    return e.outcome == RangeOutcome::unconverged ? text + "?" : text;
-  };
   std::vector<std::string> details{"certain for every history"};
   if (range.chosen)
     details.push_back(fmt::format("the stiffness of the joints selects {}{}",
                                   range_number(*range.chosen, range), range_unit(range).after_blank()));
-  return {with_capital(range_name(range)),
-          fmt::format("{} to {}{}", end(range.min, least(range)), end(range.max, greatest(range)),
-                      range_unit(range).after_blank()),
-          details};
+  return {with_capital(range_name(range)), range_ends(range), details};
 }
 
 void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {

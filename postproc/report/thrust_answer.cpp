@@ -25,13 +25,6 @@ const ForceRange* range_of_thrust(const Evaluation& e) {
   return found == ranges.end() ? nullptr : &*found;
 }
 
-std::string end_text(const RangeEnd& end, double value, const ForceRange& range) {
-  const std::string text = std::isinf(value)   ? (value > 0 ? "∞" : "-∞")
-                           : std::isnan(value) ? ""
-                                               : range_number(value, range);
-  return end.outcome == RangeOutcome::unconverged ? text + "?" : text;
-}
-
 /// A horizontal direction of the model: "+x", "-y", "30° from x".
 std::string direction_text(const Vec3& direction) {
   constexpr double kAlong = 1.0 - 1e-12;
@@ -42,6 +35,10 @@ std::string direction_text(const Vec3& direction) {
 
 bool differ(const std::vector<Thrust>& thrusts) {
   return thrusts.size() > 1 && !alike(thrusts[0].force, thrusts[1].force);
+}
+
+bool pushes_inwards(const std::vector<Thrust>& thrusts) {
+  return thrusts.front().force < 0.0 || (differ(thrusts) && thrusts.back().force < 0.0);
 }
 
 /// "12.3 kN", or "12.3 kN and 4.1 kN".
@@ -83,10 +80,12 @@ double length_of(const Evaluation& e, const Sheet& sheet, const Thrust& thrust) 
   return std::max(high - low, 0.0);
 }
 
-/// "14.1 kN/m over 5 m of support"; "" where the thrust is negligible or the length unknown.
-std::string per_metre(double thrust, double length) {
-  if (thrust == 0.0 || !(length > 0.0)) return "";
-  return fmt::format("{}/m over {} of support", force_text(thrust / length), length_text(length));
+/// "14.1 kN/m over 5 m of support", "14 kN/m to 16 kN/m over 5 m of support"; "" where the thrust is
+/// negligible or the length unknown.
+std::string per_metre(double least, double greatest, double length) {
+  if ((least == 0.0 && greatest == 0.0) || !(length > 0.0)) return "";
+  const std::string from = force_text(least / length), to = force_text(greatest / length);
+  return fmt::format("{}{}/m over {} of support", from == to ? "" : from + "/m to ", to, length_text(length));
 }
 
 /// The cut under the lowest course whose intrados leans, where a vault springs from its walls; null if all
@@ -160,21 +159,14 @@ Thrust counted_by_range(const Evaluation& e, const Sheet& sheet) {
   return std::move(thrusts[second ? 1 : 0]);
 }
 
-std::string least_to_greatest(const ForceRange& range) {
-  return fmt::format("{} to {}{}", end_text(range.min, least(range), range),
-                     end_text(range.max, greatest(range), range), range_unit(range).after_blank());
-}
-
 /// "14 kN/m to 16 kN/m over 5 m of support" and "at the base, z = 0 m", of the stack of the range.
 std::vector<std::string> place_of_range(const Evaluation& e, const Sheet& sheet, const ForceRange& range) {
   const Thrust counted = counted_by_range(e, sheet);
-  const double length = length_of(e, sheet, counted);
   std::vector<std::string> out;
-  const bool is_none = least(range) == 0.0 && greatest(range) == 0.0;
   const bool is_shared = counted.on_blocks && !counted.supports.empty();  // in parts that it does not know
-  if (length > 0.0 && !is_none && !is_shared && std::isfinite(least(range)) && std::isfinite(greatest(range)))
-    out.push_back(fmt::format("{}/m to {}/m over {} of support", force_text(least(range) / length),
-                              force_text(greatest(range) / length), length_text(length)));
+  if (!is_shared && std::isfinite(least(range)) && std::isfinite(greatest(range)))
+    out.push_back(per_metre(least(range), greatest(range), length_of(e, sheet, counted)));
+  std::erase(out, "");
   const RingSum& base = base_of(e, sheet);
   std::string level = springing_of(e, sheet) == &base ? "springing" : "base";
   if (counted.towards) level += " towards " + direction_text(*counted.towards);
@@ -227,8 +219,8 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
   }
   for (const ForceRange& other : e.summary.ranges)
     if (other.quantity.starts_with("thrust of "))
-      details.push_back(fmt::format("{} {}", other.quantity.substr(7), least_to_greatest(other)));
-  return {"Outward thrust", least_to_greatest(range), details};
+      details.push_back(fmt::format("{} {}", other.quantity.substr(7), range_ends(other)));
+  return {"Outward thrust", range_ends(range), details};
 }
 
 /// What supports bear of the thrust per metre; "" where those of other courses bear it, too.
@@ -237,7 +229,7 @@ std::string along_supports(const Evaluation& e, const Sheet& sheet, const std::v
   const auto length = [&](const Thrust& thrust) { return length_of(e, sheet, thrust); };
   const auto per_length = [&](const Thrust& thrust) { return on_supports(thrust) / length(thrust); };
   const Thrust& most = *std::ranges::max_element(thrusts, {}, per_length);
-  const std::string along = per_metre(on_supports(most), length(most));
+  const std::string along = per_metre(on_supports(most), on_supports(most), length(most));
   if (along.empty() || thrusts.size() == 1) return along;
   const bool is_even = !differ(thrusts) && alike(length(thrusts.front()), length(thrusts.back()));
   return (is_even ? "on each side, " : "at most ") + along;
@@ -249,7 +241,8 @@ std::vector<std::string> thrusts_of_others(const Evaluation& e, const std::vecto
   std::vector<std::string> out;
   for (size_t i = 1; i < std::min(pushing.size(), kMost); ++i) {
     const std::vector<Thrust> others = thrusts_of(e, *pushing[i]);
-    std::string text = fmt::format("of {} {}", pushing[i]->name, values_text(others));
+    std::string text = fmt::format("of {} {}{}", pushing[i]->name, values_text(others),
+                                   pushes_inwards(others) ? ", negative: inwards" : "");
     if (differ(others)) text += fmt::format(" {}", sides_text(others));
     const std::string along = along_supports(e, *pushing[i], others);
     out.push_back(text + (along.empty() ? "" : ", ") + along);
@@ -299,8 +292,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   const auto add = [&details](std::string text) {
     if (!text.empty()) details.push_back(std::move(text));
   };
-  if (thrusts.front().force < 0.0 || (differ(thrusts) && thrusts.back().force < 0.0))
-    add("negative: inwards");
+  if (pushes_inwards(thrusts)) add("negative: inwards");
   std::string along = along_supports(e, shell, thrusts);
   if (!alone) along = fmt::format("of {}{}{}", shell.name, along.empty() ? "" : ", ", along);
   add(sides_text(thrusts));
