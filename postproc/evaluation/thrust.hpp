@@ -33,8 +33,8 @@ bool alike(double a, double b);
 /// they are alike. A half arch has one.
 std::vector<Thrust> thrusts_of(const Evaluation& evaluation, const Sheet& sheet);
 
-/// N, the outward thrust of a model: the largest of the last stack that pushes outwards, or of stones about an
-/// axis without courses the sum over the supports. None without either, and where a construction has not laid
+/// N, the outward thrust of a model: that of the stack that pushes most outwards, or of stones about an axis
+/// without courses the sum over the supports. None without either, and where a construction has not laid
 /// its lowest course.
 std::optional<double> outward_thrust(const Evaluation& evaluation);
 

@@ -19,11 +19,7 @@ std::vector<Crack> cracks_of(const ContactTable& c, const JointWrenches& joints)
       widest = std::max(widest, opening);
     }
     if (open.empty()) continue;
-    Crack crack{static_cast<int>(j), planar_hull(open, joint.patch.plane.normal), 0.0, widest};
-    for (const Eigen::Vector2d& p : crack.open.outline)
-      for (const Eigen::Vector2d& q : crack.open.outline)
-        crack.extent = std::max(crack.extent, (p - q).norm());
-    cracks.push_back(std::move(crack));
+    cracks.push_back({static_cast<int>(j), planar_hull(open, joint.patch.plane.normal), widest});
   }
   return cracks;
 }

@@ -11,7 +11,6 @@ namespace cupola {
 struct Crack {
   int joint = 0;            ///< index into JointWrenches::wrenches
   PlanarHull open;          ///< an area, a line or a point
-  double extent = 0.0;      ///< m, largest distance between two of its corners; 0: a single point
   double widest_gap = 0.0;  ///< m
 };
 

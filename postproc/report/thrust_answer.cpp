@@ -18,11 +18,28 @@
 namespace cupola {
 namespace {
 
-const ForceRange* range_of_thrust(const Evaluation& e) {
-  const auto& ranges = e.summary.ranges;
-  const auto found = std::find_if(ranges.begin(), ranges.end(),
-                                  [](const ForceRange& range) { return range.quantity == "thrust"; });
-  return found == ranges.end() ? nullptr : &*found;
+/// The range of the thrust of a vault; without a sheet where no vault has courses.
+struct ThrustRange {
+  const ForceRange* range = nullptr;
+  const Sheet* sheet = nullptr;
+};
+
+/// Those of all vaults, that which may push most before the others.
+std::vector<ThrustRange> ranges_of_thrust(const Evaluation& e) {
+  const std::vector<const Sheet*> pushing = pushing_sheets(e.assembly);
+  std::vector<ThrustRange> found;
+  for (const ForceRange& range : e.summary.ranges) {
+    if (range.quantity == "thrust") found.push_back({&range, pushing.empty() ? nullptr : pushing.front()});
+    for (const Sheet* sheet : pushing)
+      if (range.quantity == "thrust of " + sheet->name) found.push_back({&range, sheet});
+  }
+  auto most = found.begin();
+  for (auto next = found.begin(); next != found.end(); ++next)
+    if (const double most_of_next = greatest(*next->range), so_far = greatest(*most->range);
+        most_of_next > so_far && !alike(most_of_next, so_far))
+      most = next;
+  if (most != found.end()) std::rotate(found.begin(), most, most + 1);
+  return found;
 }
 
 /// A horizontal direction of the model: "+x", "-y", "30° from x".
@@ -186,29 +203,47 @@ std::string spread_over(const std::vector<Reaction>& supports) {
 }
 
 /// What the supports under a vault on other members bear outwards: these push, too. "" where it is the thrust.
+/// Outwards is from one vault: a pier under several may bear more in another direction.
 std::string under_the_bearers(const Evaluation& e, const std::vector<const Sheet*>& pushing) {
-  double thrust = 0.0, borne = 0.0;
+  double thrust = 0.0, borne = 0.0, outwards = 0.0, most = 0.0;  // N, both sums, and the largest of a support
   bool on_blocks = false;
   for (const Sheet* sheet : pushing)
     for (const Thrust& side : thrusts_of(e, *sheet)) {
       thrust += side.force;
       on_blocks |= side.on_blocks;
     }
-  for (const Reaction& r : e.reactions) borne += r.outward;
-  if (!on_blocks || e.reactions.empty() || alike(thrust, borne)) return "";
+  for (const Reaction& r : e.reactions) {
+    borne += r.outward;
+    outwards = std::max(outwards, r.outward);
+    most = std::max(most, r.force.head<2>().norm());
+  }
+  if (!on_blocks || e.reactions.empty()) return "";
+  const bool aside = most > outwards && !alike(most, outwards);
+  if (alike(thrust, borne) && !aside) return "";
   return "the supports bear outwards " +
-         (e.reactions.size() > 1 ? spread_over(e.reactions) : force_text(e.reactions.front().outward));
+         (e.reactions.size() > 1 ? spread_over(e.reactions) : force_text(e.reactions.front().outward)) +
+         (aside ? fmt::format(", horizontally up to {}", force_text(most)) : "");
 }
 
-KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
+/// "of the joints alone; a tie or restraint carries up to 104 kN"; "" without any.
+std::string beside_ties(const Evaluation& e) {
+  const std::vector<double>& forces = e.last.frame.ties.force;
+  if (forces.empty()) return "";
+  return fmt::format("of the joints alone; a tie or restraint carries up to {}",
+                     force_text(std::ranges::max(forces)));
+}
+
+KeyNumber answer_of_ranges(const Evaluation& e, const std::vector<ThrustRange>& ranges) {
+  const auto& [first, vault] = ranges.front();
+  const ForceRange& range = *first;
   std::vector<std::string> details{"certain for every history"};
   if (range.chosen)
     details.push_back(fmt::format("the stiffness of the joints selects {}{}",
                                   range_number(*range.chosen, range), range_unit(range).after_blank()));
-  const std::vector<const Sheet*> of_model = pushing_sheets(e.assembly), standing = pushing_sheets(e);
-  if (of_model.size() > 1) details.push_back("of " + of_model.front()->name);
-  if (std::ranges::find(standing, of_model.front()) != standing.end() && !e.rings.empty()) {
-    for (std::string& text : place_of_range(e, *of_model.front(), range)) details.push_back(std::move(text));
+  const std::vector<const Sheet*> standing = pushing_sheets(e);
+  if (vault && ranges.size() > 1) details.push_back("of " + vault->name);
+  if (vault && std::ranges::find(standing, vault) != standing.end() && !e.rings.empty()) {
+    for (std::string& text : place_of_range(e, *vault, range)) details.push_back(std::move(text));
     if (const std::string under = under_the_bearers(e, standing); !under.empty())
       details.push_back(fmt::format("in the state selected {}, whose range is that of a `reaction`", under));
   }
@@ -217,9 +252,10 @@ KeyNumber thrust_of_range(const Evaluation& e, const ForceRange& range) {
     if (const auto tension = net_hoop_tension(e, least(range)))
       details.back() += pull_of_rings(e.scene.geometry, *tension);
   }
-  for (const ForceRange& other : e.summary.ranges)
-    if (other.quantity.starts_with("thrust of "))
-      details.push_back(fmt::format("{} {}", other.quantity.substr(7), range_ends(other)));
+  if (!e.last.frame.ties.force.empty())
+    details.emplace_back("of the joints alone, without ties and restraints");
+  for (const auto& [other, sheet] : ranges)
+    if (sheet && other != first) details.push_back(fmt::format("of {} {}", sheet->name, range_ends(*other)));
   return {"Outward thrust", range_ends(range), details};
 }
 
@@ -279,7 +315,8 @@ KeyNumber thrust_without_courses(const Evaluation& e, double thrust) {
 }  // namespace
 
 std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
-  if (const ForceRange* range = range_of_thrust(e)) return thrust_of_range(e, *range);
+  if (const std::vector<ThrustRange> ranges = ranges_of_thrust(e); !ranges.empty())
+    return answer_of_ranges(e, ranges);
   const std::optional<double> found = at_rest(e) ? outward_thrust(e) : std::nullopt;
   if (!found || (*found == 0.0 && is_stage(e.last.frame.role)))
     return std::nullopt;  // the course laid last rests on others
@@ -302,6 +339,7 @@ std::optional<KeyNumber> thrust_answer(const Evaluation& e) {
   if (alone) add(share_of_weight(e, thrusts.front().force));
   for (std::string& text : thrusts_of_others(e, pushing)) add(std::move(text));
   add(under_the_bearers(e, pushing));
+  add(beside_ties(e));
   add(doubt_of(e));
   details.front().insert(0, after_last_stage(e));
   return KeyNumber{"Outward thrust", values_text(thrusts), details};

@@ -101,8 +101,8 @@ const Columns<Reaction>& reaction_columns() {
       {"support", "", "index of the fixed block", &S::block},
       {"force_{}_N", "N", "of the structure on the support", &S::force},
       {"outward_force_N", "N",
-       "sum of its joints along the outward direction at the centroid of each, of an arch away from the "
-       "middle of its stones; empty: no vault",
+       "sum of its joints, without ties, along the outward direction at the centroid of each, of an arch "
+       "away from the middle of its stones, of a pier under several vaults that of one; empty: no vault",
        &S::outward},
       {"length_m", "m",
        "of its joints along the course, area over the thickness of the wythes; empty: none, as of the cut "

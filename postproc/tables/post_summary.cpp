@@ -181,9 +181,9 @@ void add_equilibrium(const Evaluation& e, PostSummary* s) {
   if (force > 0.0) s->mean_kern_use = above(kern / force, e.last.joints.floor.share);
   if (!is_rigid(e) && !supports_have_not_moved(e)) {
     s->crack_length_m = s->widest_crack_m = 0.0;
-    for (const Crack& crack : e.joint_cracks) {
-      *s->crack_length_m += crack.extent;
-      raise(&s->widest_crack_m, crack.widest_gap);
+    for (const ShellCrack& crack : e.cracks) {
+      *s->crack_length_m += crack.length;
+      raise(&s->widest_crack_m, crack.width);
     }
   }
   if (!e.scene.analysis.plane)  // where no couple turns about the force

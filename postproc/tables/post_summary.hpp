@@ -32,8 +32,8 @@ struct PostSummary {
   std::optional<double> largest_friction_use;     ///< of a joint
   std::optional<double> largest_pressure_Pa;      ///< on a joint
   std::optional<double> largest_strength_use;     ///< of a joint with strength
-  std::optional<double> crack_length_m;           ///< sum of the extents of the open parts of joints
-  std::optional<double> widest_crack_m;           ///< largest gap of an open joint
+  std::optional<double> crack_length_m;           ///< along the shell, of all cracks of cracks.csv
+  std::optional<double> widest_crack_m;           ///< of the widest of them
   std::optional<double> mean_kern_use;            ///< mean over the bed joints, weighted by normal force
   std::optional<double> thrust_over_weight;
   std::optional<double> max_displacement_m;

@@ -10,6 +10,7 @@
 #include "postproc/figures/figures.hpp"
 #include "postproc/report/answers.hpp"
 #include "postproc/tables/observed_cracks.hpp"
+#include "postproc/tables/post_summary.hpp"
 #include "postproc/tables/shell_map.hpp"
 #include "tests/postproc/models.hpp"
 
@@ -171,6 +172,24 @@ TEST(ShellCracks, BetweenLayersReachNoFace) {
     EXPECT_EQ(crack.width_outer, 0.0);
     EXPECT_FALSE(crack.through);
   }
+}
+
+// One length of cracks: that of cracks.csv, of the first screen and of summary.json, along the shell. The
+// largest distances between open points, with the depth of the joints, are 1.006 m of each joint here.
+TEST(ShellCracks, HaveOneLengthEverywhere) {
+  Vault vault(two_cracks());
+  Evaluation& e = vault.evaluation();
+  e.last.frame.role = FrameRole::equilibrium;
+  e.summary.status = Status::stable;
+  e.joint_cracks = cracks_of(e.last.frame.contacts, e.last.joints);
+  e.cracks = vault.cracks();
+  const PostSummary s = post_summary(e);
+  EXPECT_EQ(s.crack_length_m.value(), e.cracks[0].length + e.cracks[1].length);
+  EXPECT_EQ(s.widest_crack_m.value(), 5e-3);
+  EXPECT_NEAR(s.crack_length_m.value(), 6 * 0.02 * 10.5, 0.1) << "the chords of the courses are longer";
+  EXPECT_NE(crack_answer(e).value().detail().find(fmt::format("{:.3g} m long", *s.crack_length_m)),
+            std::string::npos)
+      << crack_answer(e).value().detail();
 }
 
 // Cracks and open joints are counted alike on the first screen: the hairline is in no crack.
