@@ -71,10 +71,11 @@ VecX NormalEquations::multiply(const VecX& w) const {
 }
 
 VecX NormalEquations::solve(const VecX& f) const {
-  if (columns_.cols() > 0) return factor_.solve(f);
   constexpr int kMaxIterations = 8;
-  constexpr double kEnough = 1e-8;  // of the norm of f; refinement by the rows themselves does the rest
+  constexpr double kMostGrowth = 1e6;  // of the norm of x
+  constexpr double kEnough = 1e-8;     // of the norm of f; refinement by the rows themselves does the rest
   VecX x = factor_.solve(f);
+  const double most = kMostGrowth * x.norm();
   VecX r = f - multiply(x);
   const double enough = kEnough * f.norm();
   VecX best = x;
@@ -88,6 +89,7 @@ VecX NormalEquations::solve(const VecX& f) const {
     if (!(curvature > 0.0) || !(rz > 0.0)) break;
     x += rz / curvature * direction;
     r -= rz / curvature * product;
+    if (x.norm() > most) break;
     if (r.norm() < least) {
       least = r.norm();
       best = x;

@@ -19,11 +19,10 @@ namespace cupola {
 /// The first block has the pattern of the contact graph and a sparse Cholesky factor. The other rows and
 /// columns, a few dense ones, are eliminated by their Schur complement.
 ///
-/// G spans many orders of magnitude near the solution, so that the factor alone loses digits. Without a
-/// border, each solution is improved by a few iterations of conjugate gradients preconditioned with it. With
-/// one, the first block may be singular along motions that the border resists, as of a block that slides
-/// where the load pushes it: there the regularised factor is left as it is, for improved solutions would grow
-/// along such motions until they bury the rest in rounding, and Embedding::refine() improves the whole.
+/// G spans many orders of magnitude near the solution, so that the factor alone loses digits. Each solution is
+/// improved by a few iterations of conjugate gradients preconditioned with it. Along motions that the border
+/// alone resists, as of a block that slides where the load pushes it, the first block is singular, and
+/// solutions would grow until they bury the rest in rounding: improvement ends where they have grown too far.
 class NormalEquations {
  public:
   struct Unknowns {

@@ -161,7 +161,7 @@ TEST(ThrustOfStacks, APierUnderTwoVaultsBearsMoreThanItsOutwardForce) {
     horizontal = std::max(horizontal, r.force.head<2>().norm());
   }
   EXPECT_GT(horizontal, 1.1 * outward);
-  const std::string detail = thrust_answer(e)->detail;
+  const std::string detail = thrust_answer(e)->detail();
   EXPECT_NE(detail.find(", horizontally up to " + force_text(horizontal)), std::string::npos) << detail;
 }
 
@@ -180,7 +180,7 @@ TEST(ThrustOfStacks, OfATiedArchIsThatOfItsJoints) {
                               : "")),
         folder);
     ASSERT_TRUE(at_rest(e)) << e.summary.message;
-    const std::string detail = thrust_answer(e)->detail;
+    const std::string detail = thrust_answer(e)->detail();
     EXPECT_EQ(detail.find("of the joints alone") != std::string::npos, tied) << detail;
     if (!tied) continue;
     const std::string tie = force_text(e.last.frame.ties.force.at(0));
