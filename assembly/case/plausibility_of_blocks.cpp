@@ -204,7 +204,7 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
   for (size_t i = 0; i < scene.loads.forces.size() && !varies(LimitSearch::Parameter::load); ++i)
     if (const double force = scene.loads.forces[i].force.norm(); force > 0.0)
       checks.push_back({fmt::format("loads.forces[{}].force", i), force, "N",
-                        1e-4 * weight / std::max(1, free_blocks), 1e3 * weight, "in kN? Forces are in N",
+                        1e-2 * weight / std::max(1, free_blocks), 1e3 * weight, "in kN? Forces are in N",
                         "too many digits? Forces are in N"});
   for (size_t i = 0; i < scene.supports.moves.size() && !varies(LimitSearch::Parameter::spread); ++i)
     checks.push_back({fmt::format("supports.moves[{}].displacement", i),

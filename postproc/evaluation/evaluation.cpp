@@ -378,10 +378,6 @@ Evaluation evaluate(const Case& scene, Assembly assembly, const ResultsReader& r
   e.loads = applied_loads(e.acting, e.assembly);
   e.shell = shell_of(e.assembly, e.up);
   e.axes = shell_axes(e.assembly, e.shell);
-  if (!e.assembly.ties.empty() || !scene.ties.pairs.empty() || !scene.supports.restraints.empty())
-    e.warnings.push_back(
-        "wrenches on blocks count the forces of joints only, thrust lines those of joints and ties");
-
   e.last = evaluate_frame(e, std::move(shown));
   const std::vector<bool> left_out = left_out_of(e, e.last);
   e.rings = ring_sums(e.assembly, e.shell, e.last.joints, e.last.from_below, e.last.gravity, e.last.loads,

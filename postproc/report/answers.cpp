@@ -138,10 +138,12 @@ KeyNumber largest_load(const Evaluation& e, double time) {
   FrameEvaluation most;
   set_loads(e, time, &most);
   const std::string loads = loads_text(e, most);
-  return {"Largest load",
-          fmt::format("{:.4g} s of {:.4g}", time, e.scene.analysis.path.end),
-          {fmt::format("borne before the end of the path, which is at {:.4g} s{}{}", e.last.frame.time,
-                       loads.empty() ? "" : ": ", loads)}};
+  const std::string when = fmt::format("at {:.4g} s of {:.4g}", time, e.scene.analysis.path.end);
+  KeyNumber out{"Largest loads", loads.empty() ? when : loads, {}};
+  if (!loads.empty()) out.details.push_back(when);
+  out.details.push_back(fmt::format("the path ends at {:.4g} s", e.last.frame.time));
+  out.details.emplace_back("of the equilibria found: between them the loads may be larger");
+  return out;
 }
 
 /// The least acceleration that a search over directions found.

@@ -53,11 +53,13 @@ std::string moving_courses(const Evaluation& e, const MechanismMotion& motion) {
                                      fmt::join(names, ", "));
 }
 
-/// "hinges form at 4 joints, 12 joints slide".
+/// "hinges form at 4 joints, 12 others slide": at a hinge it may slide, too.
 std::string counts_text(const GivesWay& joints) {
   std::vector<std::string> parts;
   const auto add = [&parts](int count, const char* one, const char* many) {
-    if (count > 0) parts.push_back(fmt::format("{} {}", counted(count, "joint"), count == 1 ? one : many));
+    if (count > 0)
+      parts.push_back(
+          fmt::format("{} {}", counted(count, parts.empty() ? "joint" : "other"), count == 1 ? one : many));
   };
   if (joints.hinging > 0) parts.push_back("hinges form at " + counted(joints.hinging, "joint"));
   add(joints.sliding, "slides", "slide");

@@ -236,7 +236,8 @@ std::string reason_for_verdict(const Evaluation& e) {
   const Summary& s = e.summary;
   std::string text;
   if (const auto latest = s.bears_loads_until_s)
-    text = fmt::format("At most those at {:.4g} s of {:.4g} s. ", *latest, e.scene.analysis.path.end);
+    text = fmt::format("Of the equilibria found none bears more than the loads at {:.4g} s of {:.4g} s. ",
+                       *latest, e.scene.analysis.path.end);
   if (shows_the_case(e) && stands(s.status))
     text += carried_text(e);
   else if (e.last.frame.role == FrameRole::step && (s.status == Status::collapsed || moves(s.status)))

@@ -149,7 +149,7 @@ const Columns<BlockRow>& block_columns() {
       {"force_{}_N", "N", "force from the ring below", [](const B& b) { return b.from_below.force; }},
       {"moment_{}_Nm", "N m", "moment from the ring below, about the centroid",
        [](const B& b) { return b.from_below.moment; }},
-      {"resultant_N", "N", "norm of the force from the ring below",
+      {"resultant_N", "N", "norm of the force from the ring below, through joints alone, without ties",
        [](const B& b) { return b.fields.resultant; }},
       {"axis_{}_m", "m", "point on the wrench's central axis nearest to the centroid",
        [](const B& b) { return b.axis.point; }},

@@ -164,7 +164,8 @@ std::string describe(const Mechanism& mechanism) {
   };
   const bool one = mechanism.num_groups == 1;
   return fmt::format(
-      "{} of blocks {}; joints that slide: {}, open: {}, hinge: {}; relative power of the loads "
+      "{} of blocks {}; joints that only slide: {}, open: {}, turn about an edge: {}; relative power of the "
+      "loads "
       "{:.3g}, largest violation of the friction cones {:.1e}",
       counted(mechanism.num_groups, "group"), one ? "moves" : "move", count(JointMotion::sliding),
       count(JointMotion::opening), count(JointMotion::hinging), mechanism.load_power, mechanism.violation);

@@ -201,8 +201,8 @@ TEST(ImplausibleForBlocks, ValuesThatMustFitTheBlocks) {
       << only(plane);
   Case force = scene;
   force.loads.forces.resize(1);
-  force.loads.forces[0].force = Vec3(0, 0, -0.01);  // blocks of hundreds of newtons
-  EXPECT_TRUE(only(force).starts_with("loads.forces[0].force = 0.01 N: ")) << only(force);
+  force.loads.forces[0].force = Vec3(0, 0, -1);  // blocks of hundreds of newtons
+  EXPECT_TRUE(only(force).starts_with("loads.forces[0].force = 1 N: ")) << only(force);
   EXPECT_NE(only(force).find("in kN? Forces are in N"), std::string::npos);
   force.analysis.type = AnalysisType::limit;  // a unit load, which the analysis multiplies
   force.analysis.limit.parameter = LimitSearch::Parameter::load;
