@@ -235,14 +235,16 @@ Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_wi
       bracket.stable = trial;
       if (next >= high) {
         bracket.at_both_ends = StaticOutcome::equilibrium;
-        bracket.message =
-            fmt::format("the structure stands up to the end of the bracket, {:g}; widen the bracket", high);
+        bracket.sought = {
+            .reason = fmt::format("the structure stands up to the end of the bracket, {:g}", high),
+            .advice = "widen the bracket"};
         return bracket;
       }
       step = std::min(longest, kGrowth * step);
     } else if (next == low) {
-      bracket.message = fmt::format("{} at the start of the bracket, {:g}, where the structure must stand",
-                                    to_string(trial.outcome), low);
+      bracket.sought = {
+          .reason = fmt::format("{} at the start of the bracket, {:g}", to_string(trial.outcome), low),
+          .advice = "begin where it stands"};
       return bracket;
     } else {
       bracket.moving = trial;
@@ -252,8 +254,8 @@ Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_wi
     next = std::min(high, path->value() + step);
   }
   bracket.found = bracket.narrow = bracket.moving.outcome == StaticOutcome::moving;
-  bracket.message = fmt::format("stands up to {:.6g}, {} at {:.6g}", bracket.stable.value,
-                                to_string(bracket.moving.outcome), bracket.moving.value);
+  bracket.sought.reason = fmt::format("stands up to {:.6g}, {} at {:.6g}", bracket.stable.value,
+                                      to_string(bracket.moving.outcome), bracket.moving.value);
   return bracket;
 }
 
