@@ -13,7 +13,6 @@
 #include "solver/analysis/statics/hung_blocks.hpp"
 #include "solver/analysis/statics/kept_dilatancy.hpp"
 #include "solver/analysis/statics/met_in_step.hpp"
-#include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
 
@@ -136,8 +135,7 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
       return solution;
     }
     loaded_ = std::move(end);
-    yield_work_ = tie_dissipation(solution.step, solution.step_solution);
-    dissipated_ += joint_dissipation(solution.step, solution.step_solution);
+    dissipation_.include(start_, contacts_, solution);
     return solution;
   }
 }
@@ -162,7 +160,7 @@ NearbyStart EquilibriumPath::next_start(double step) const {
 StaticSolution EquilibriumPath::advance_from(double guess) {
   const LoadedState last = loaded_;
   const double length = options_.control ? options_.control->displacement : guess - last.state.time;
-  dissipated_ = 0.0;
+  dissipation_ = {};
   solves_ = 0;
   options_.nearby.reset();
   if (last_displacement_.size() > 0) options_.nearby = next_start(length);
