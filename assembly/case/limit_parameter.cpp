@@ -28,6 +28,40 @@ bool bear_tension(const Joints& joints) {
          std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return pulls(group.law); });
 }
 
+bool is_within(double value, const LimitSearch& limit) {
+  return limit.low <= value && value <= limit.high;
+}
+
+/// The value of the parameter at which the case is itself; none if its joints differ, or of a lantern in
+/// newtons.
+std::optional<double> value_of(const Case& scene) {
+  using enum LimitSearch::Parameter;
+  switch (scene.analysis.limit.parameter) {
+    case friction: {
+      const auto [least, greatest] = scene.joints.friction_range();
+      return least == greatest ? std::optional(least) : std::nullopt;
+    }
+    case tilt:
+    case acceleration:
+      return 0.0;
+    case load:
+    case spread:  // a factor on the motion of the supports
+    case thickness:
+    case joint_extent:
+      return 1.0;
+    case lantern: {
+      const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});
+      return lantern.weight + lantern.mass > 0.0 ? std::nullopt : std::optional(lantern.weight_fraction);
+    }
+    case peak_stress: {
+      const auto [least, greatest] = compressive_strengths(scene.joints);
+      const bool varies = scene.joints.field && scene.joints.field->strength > 0.0;
+      return least == greatest && std::isfinite(least) && !varies ? std::optional(least) : std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Case case_at(const Case& scene, double value) {
@@ -124,37 +158,26 @@ std::pair<double, double> compressive_strengths(const Joints& joints) {
 std::optional<double> own_value(const Case& scene) {
   using enum LimitSearch::Parameter;
   const LimitSearch& limit = scene.analysis.limit;
-  const auto if_in_bracket = [&](double own) {
-    return limit.low <= own && own <= limit.high ? std::optional(own) : std::nullopt;
-  };
+  const std::optional<double> own = value_of(scene);
   switch (limit.parameter) {
-    case friction: {
-      const auto [least, greatest] = scene.joints.friction_range();
-      const bool comparable =
-          least == greatest && varied_joints(limit).empty() && !bear_tension(scene.joints);
-      return comparable ? std::optional(least) : std::nullopt;
-    }
+    case friction:
+      return varied_joints(limit).empty() && !bear_tension(scene.joints) ? own : std::nullopt;
     case joint_extent:
-      return 1.0;
-    case load:
-    case spread:  // a factor on the motion of the supports
-      return if_in_bracket(1.0);
-    case tilt:
-    case acceleration:
-      return if_in_bracket(0.0);
-    case lantern: {
-      const TopLoad lantern = scene.loads.lantern.value_or(TopLoad{});
-      return lantern.weight + lantern.mass > 0.0 ? std::nullopt : if_in_bracket(lantern.weight_fraction);
-    }
-    case peak_stress: {
-      const auto [least, greatest] = compressive_strengths(scene.joints);
-      const bool varies = scene.joints.field && scene.joints.field->strength > 0.0;
-      return least == greatest && std::isfinite(least) && !varies ? std::optional(least) : std::nullopt;
-    }
+    case peak_stress:
+      return own;
     case thickness:
-      break;
+      return std::nullopt;
+    default:
+      return own && is_within(*own, limit) ? own : std::nullopt;
   }
-  return std::nullopt;
+}
+
+std::string case_outside_bracket(const Case& scene) {
+  const LimitSearch& limit = scene.analysis.limit;
+  const std::optional<double> own = value_of(scene);
+  if (limit.parameter == LimitSearch::Parameter::peak_stress || !own || is_within(*own, limit)) return "";
+  return fmt::format("the bracket leaves out the case itself, which has {}",
+                     phrase(to_string(limit.parameter), *own));
 }
 
 }  // namespace cupola

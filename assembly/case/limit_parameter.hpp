@@ -35,4 +35,8 @@ std::pair<double, double> compressive_strengths(const Joints& joints);
 /// and none outside the bracket unless more friction, strength or larger joints bear whatever less bears.
 std::optional<double> own_value(const Case& scene);
 
+/// "the bracket leaves out the case itself, which has a friction of 0.6"; "" if it does not, or if the case
+/// has no such value.
+std::string case_outside_bracket(const Case& scene);
+
 }  // namespace cupola

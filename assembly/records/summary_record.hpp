@@ -134,7 +134,9 @@ void fields(Visitor&& visit, Is<Summary> auto& s) {
   visit("contacts", "", "number of contact points", s.contacts);
   visit("unknowns", "", "six per free block, three in a plane model", s.unknowns);
   visit("weight_N", "N", "total weight of the free blocks", s.weight_N);
-  visit("applied_load_N", "N", "resultant of all loads on the free blocks, weight included (3)",
+  visit("applied_load_N", "N",
+        "resultant of all loads on the free blocks, weight included; in motions at the middle of the last "
+        "step, as in its balance (3)",
         s.applied_load_N);
   visit("support_reaction_N", "N", "resultant of the forces of the fixed blocks on the free ones (3)",
         s.support_reaction_N);

@@ -199,8 +199,8 @@ Bracket LimitRun::follow_spread() {
         return keep(trial.value, {{}, model, path.start(), path.contacts(), path.memories(), solution});
       });
   if (bracket.at_both_ends && largest_move(model, limit.low, limit.high) == 0.0)
-    bracket.message =
-        "the structure stands, and no support moves: give the motion that it multiplies, supports.moves";
+    bracket.sought = {.reason = "the structure stands, and no support moves",
+                      .advice = "give the motion that it multiplies, supports.moves"};
   return bracket;
 }
 
@@ -264,15 +264,14 @@ std::string end_at_sound_stones(const Assembly& assembly, LimitSearch* limit) {
 void record_search(const LimitRun& run, const Bracket& bracket, Summary* summary) {
   const LimitSearch& limit = run.scene.analysis.limit;
   const std::string parameter = to_string(limit.parameter);
-  Sought sought{.reason = bracket.message, .also = run.also};
+  Sought sought = bracket.sought;
+  sought.also = run.also;
   if (bracket.found)
     summary->critical =
         CriticalValue{parameter, bracket.middle(), bracket.stable.value, bracket.moving.value};
   if (bracket.at_both_ends) {
     const bool stands = *bracket.at_both_ends == StaticOutcome::equilibrium;
     summary->stands_at_both_ends = stands;
-    if (limit.parameter != LimitSearch::Parameter::spread)
-      sought = at_both_ends(stands, limit.low, limit.high);
     if (!stands && run.stable) sought.also = "the case itself stands";
   }
   summary->message =
@@ -337,11 +336,14 @@ std::optional<Summary> search_limit(const Case& scene, const Assembly& assembly,
 std::optional<Summary> run_limit(const Case& scene, const Assembly& assembly, const AnalysisSinks& sinks) {
   if (seeks_lantern(scene.analysis)) require_top_for_lantern(assembly, scene.loads.gravity.norm());
   Case sound = scene;
-  const std::string note = end_at_sound_stones(assembly, &sound.analysis.limit);
+  std::string note = end_at_sound_stones(assembly, &sound.analysis.limit);
   std::optional<Summary> summary = search_limit(sound, assembly, sinks);
   if (!summary) return summary;
+  if (!summary->critical) {  // the verdict is that of the case, of which the bracket may say nothing
+    add_clause(case_outside_bracket(sound), &note);
+    add_clause(note, &summary->sought->also);
+  }
   add_clause(note, &summary->message);
-  if (!summary->critical) add_clause(note, &summary->sought->also);
   return summary;
 }
 

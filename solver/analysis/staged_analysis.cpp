@@ -91,7 +91,7 @@ void ConstructionRun::lay_foundation() {
   }
   stage.solution.message =
       "the courses below analysis.staged.first_ring, laid at once, do not stand: " + stage.solution.message;
-  stage.least.bracket.message = "it is sought from analysis.staged.first_ring on";
+  stage.least.bracket.sought.reason = "it is sought from analysis.staged.first_ring on";
   stage.iterations = stage.solution.iterations;
   if (stage.solution.outcome == StaticOutcome::moving)
     stage.falling = falling_blocks(building_.problem(), stage.solution.step_solution.v);

@@ -40,23 +40,6 @@ double damping_work(const StepProblem& step, Eigen::Index row, double rate, cons
   return c > 0.0 ? options.damping * options.h * rate * rate / c : 0.0;
 }
 
-/// J: negative of the work of gamma on the inelastic displacement (m) of one contact, friction and dilatancy.
-struct JointWork {
-  double friction = 0.0, dilatancy = 0.0;
-};
-JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& displacement) {
-  const Vec3 force = gamma / step.impulse_time[i];
-  const double normal = force[0] * displacement[0];
-  JointWork work{-force.tail<2>().dot(displacement.tail<2>()), std::max(0.0, normal)};
-  if (!step.problem.strength.empty()) work.friction += std::max(0.0, -normal);
-  return work;
-}
-
-/// J, of the plastic elongation of a tie.
-double yield_work(const StepProblem& step, int row, const ContactSolution& solution) {
-  return solution.gamma[3 * row] / step.impulse_time[row] * plastic_elongation(step, row, solution);
-}
-
 /// m/s, u_el of a contact or tie without the part by which it crosses its gap, which stretches no spring.
 Vec3 stretching(const StepProblem& step, int row, Vec3 u_el, double elastic_gap) {
   const double b_n = step.problem.b[3 * row] - step.support_velocity_of(row)[0];
@@ -95,7 +78,8 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
     const double stored = springs[i] - start.springs[i];
     const double approach_per_step = options.h * (u_start[row] + share * step.support_velocity_of(i)[0]);
     StepWork term;
-    term.friction = joint.friction;
+    const double dissipated = joint.slip + joint.breaking;
+    term.friction = dissipated;
     term.dilatancy = joint.dilatancy;
     for (int k = 0; k < 3 && !gamma.isZero(0.0); ++k)
       term.damping += damping_work(step, row + k, damped[k], options);
@@ -103,8 +87,8 @@ void add_joint_work(const Model& model, const StepStart& start, const StepProble
     if (gamma.isZero(0.0) && options.damping > 0.0) term.damping = -stored;
     if (gamma[0] > 0.0 && start.elastic_gap[i] - approach_per_step > moved)
       term.impact =
-          taken - joint.friction + joint.dilatancy + step.reach / step.impulse_time[i] * gamma.dot(rate);
-    term.scheme = taken + joint.dilatancy - joint.friction - term.damping - term.impact - stored;
+          taken - dissipated + joint.dilatancy + step.reach / step.impulse_time[i] * gamma.dot(rate);
+    term.scheme = taken + joint.dilatancy - dissipated - term.damping - term.impact - stored;
     return term;
   });
   for (int tie = step.num_contacts; tie < problem.num_contacts(); ++tie) {
@@ -179,20 +163,16 @@ StepWork work_of_step(const Model& model, const StepStart& start, const StepProb
   return work;
 }
 
-double joint_dissipation(const StepProblem& step, const ContactSolution& solution) {
-  const ContactProblem& problem = step.problem;
-  const VecX z = relative_velocity(problem, solution.v) + problem.b + problem.E.cwiseProduct(solution.gamma);
-  double work = 0.0;
-  for (int i = 0; i < step.num_contacts; ++i)
-    work += joint_work(step, i, solution.gamma.segment<3>(3 * i), step.reach * z.segment<3>(3 * i)).friction;
-  return work + tie_dissipation(step, solution);
+JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& displacement) {
+  const Vec3 force = gamma / step.impulse_time[i];
+  const double normal = force[0] * displacement[0];
+  JointWork work{.slip = -force.tail<2>().dot(displacement.tail<2>()), .dilatancy = std::max(0.0, normal)};
+  if (!step.problem.strength.empty()) work.breaking = std::max(0.0, -normal);
+  return work;
 }
 
-double tie_dissipation(const StepProblem& step, const ContactSolution& solution) {
-  double work = 0.0;
-  for (int tie = step.num_contacts; tie < step.problem.num_contacts(); ++tie)
-    work += yield_work(step, tie, solution);
-  return work;
+double yield_work(const StepProblem& step, int row, const ContactSolution& solution) {
+  return solution.gamma[3 * row] / step.impulse_time[row] * plastic_elongation(step, row, solution);
 }
 
 }  // namespace cupola

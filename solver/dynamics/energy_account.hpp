@@ -20,7 +20,7 @@ struct StepWork {
   /// work of the opening that accompanies slip, sum (gamma_n z_n)+. The associated law returns in it what
   /// friction takes.
   double dilatancy = 0.0;
-  double friction = 0.0;  ///< joint_dissipation(): friction, tension, crushing, and ties that yield
+  double friction = 0.0;  ///< slip and breaking of joints (joint_work()), and ties that yield
   double damping = 0.0;   ///< >= 0: alpha h norm(u_el)^2 / c of compliant joints, and springs that part
   /// Of contacts that close, whose springs are compressed by less than they approach in the step: work on the
   /// mean velocity that springs, dampers and friction do not take up, (u - u_start) . gamma / 2 + b_n+ gamma_n
@@ -51,15 +51,20 @@ StepWork work_of_step(const Model& model, const StepStart& start, const StepProb
                       const ContactSolution& solution, const State& state, const ContactMemories& memories,
                       const StepOptions& options);
 
-/// Work dissipated in the joints and ties in one step, J, >= 0 in exact arithmetic, with the inelastic
-/// displacement reach z and the force r+ at the end of the step. Of friction:
+/// J, >= 0 in exact arithmetic, of one contact in a step: work on its inelastic displacement
 ///
-///     - sum r_t . reach z_t,   z = D^T v + b + E gamma
+///     reach z,   z = D^T v + b + E gamma
 ///
-/// Joints with strength add the work of tension and crushing, sum (- r_n reach z_n)+, and ties that of
-/// yielding.
-double joint_dissipation(const StepProblem& step, const ContactSolution& solution);
-/// The part of ties that yield, J.
-double tie_dissipation(const StepProblem& step, const ContactSolution& solution);
+/// against the force r+ at the end of the step.
+struct JointWork {
+  double slip = 0.0;       ///< - r_t . reach z_t, of friction and cohesion
+  double breaking = 0.0;   ///< (- r_n reach z_n)+ of joints with strength: tension and crushing
+  double dilatancy = 0.0;  ///< (r_n reach z_n)+, which slip gains
+};
+/// `gamma`: N s; `displacement`: m, reach z.
+JointWork joint_work(const StepProblem& step, int i, const Vec3& gamma, const Vec3& displacement);
+
+/// J, of the plastic elongation of a tie, by its row.
+double yield_work(const StepProblem& step, int row, const ContactSolution& solution);
 
 }  // namespace cupola

@@ -52,9 +52,8 @@ DirectLimit stands_at_both_ends(const SceneAt& scene_at, double low, double high
   Sought why;
   if (derivative_of_loads(scene_at, high).isZero(0.0)) {
     scene = scene_at(high);
-    why.reason =
-        "the structure stands, and no load depends on the parameter: give a load other than weight and fill, "
-        "not 0 at the time 0";
+    why = {.reason = "the structure stands, and no load depends on the parameter",
+           .advice = "give a load other than weight and fill, not 0 at the time 0"};
   } else {
     const double towards =
         std::abs(low) > std::abs(high) ? -1.0 : 1.0;  // where the loads of the parameter grow

@@ -36,7 +36,7 @@ Sought answer_of_stage(const Bracket& bracket, Least property, const std::string
   return {.found = moves ? "none" : "unknown",
           .reason = moves ? not_held_text(property, bracket.moving.value, stage)
                           : fmt::format("the least fresh {} of {} was not found ({})", to_string(property),
-                                        stage, bracket.message)};
+                                        stage, bracket.sought.reason)};
 }
 
 /// The answer to analysis.staged.least, the last clause of the message. A value that not all stages have is

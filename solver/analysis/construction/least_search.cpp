@@ -50,7 +50,7 @@ bool find_motion(KnownTrials* attempt, double* low, double* high, LeastSearch::R
   result->needs_none = *high == 0.0;
   if (result->needs_none) return false;
   result->bracket.stable = *(*attempt)(*high);
-  result->bracket.message = "the solve at 0 did not converge";
+  result->bracket.sought.reason = "the solve at 0 did not converge";
   return false;
 }
 
@@ -85,7 +85,7 @@ LeastSearch::Result LeastSearch::find(const TryValue& solve) {
   }
   if (trial->outcome != equilibrium) {
     if (more_bears_ == MoreBears::more && trial->outcome == moving) result.bracket.moving = *trial;
-    result.bracket.message =
+    result.bracket.sought.reason =
         more_bears_ == MoreBears::more
             ? fmt::format("{} at {:g}, the largest value tried", to_string(trial->outcome), trial->value)
             : fmt::format("it stands at no value tried from {:g} to {:g}, of which more can bear less",

@@ -197,7 +197,7 @@ std::string failure_rows(int number, const LaidBlocks& laid, const Assembly& ass
 std::string least_note(const SolvedStage& stage, Least property) {
   if (property == Least::none) return "";
   return stage.least.needs_none ? fmt::format("stands without {}", to_string(property))
-                                : stage.least.bracket.message;
+                                : stage.least.bracket.sought.reason;
 }
 
 std::vector<FallingBlock> falling_blocks(const StageProblem& problem, const VecX& v) {

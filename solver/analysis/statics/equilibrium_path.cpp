@@ -13,7 +13,6 @@
 #include "solver/analysis/statics/hung_blocks.hpp"
 #include "solver/analysis/statics/kept_dilatancy.hpp"
 #include "solver/analysis/statics/met_in_step.hpp"
-#include "solver/dynamics/energy_account.hpp"
 #include "solver/dynamics/joint_damage.hpp"
 #include "solver/dynamics/state_archive.hpp"
 
@@ -136,8 +135,7 @@ StaticSolution EquilibriumPath::solve_from(const LoadedState& from, double time_
       return solution;
     }
     loaded_ = std::move(end);
-    yield_work_ = tie_dissipation(solution.step, solution.step_solution);
-    dissipated_ += joint_dissipation(solution.step, solution.step_solution);
+    dissipation_.include(start_, contacts_, solution);
     return solution;
   }
 }
@@ -162,7 +160,7 @@ NearbyStart EquilibriumPath::next_start(double step) const {
 StaticSolution EquilibriumPath::advance_from(double guess) {
   const LoadedState last = loaded_;
   const double length = options_.control ? options_.control->displacement : guess - last.state.time;
-  dissipated_ = 0.0;
+  dissipation_ = {};
   solves_ = 0;
   options_.nearby.reset();
   if (last_displacement_.size() > 0) options_.nearby = next_start(length);
@@ -235,14 +233,16 @@ Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_wi
       bracket.stable = trial;
       if (next >= high) {
         bracket.at_both_ends = StaticOutcome::equilibrium;
-        bracket.message =
-            fmt::format("the structure stands up to the end of the bracket, {:g}; widen the bracket", high);
+        bracket.sought = {
+            .reason = fmt::format("the structure stands up to the end of the bracket, {:g}", high),
+            .advice = "widen the bracket"};
         return bracket;
       }
       step = std::min(longest, kGrowth * step);
     } else if (next == low) {
-      bracket.message = fmt::format("{} at the start of the bracket, {:g}, where the structure must stand",
-                                    to_string(trial.outcome), low);
+      bracket.sought = {
+          .reason = fmt::format("{} at the start of the bracket, {:g}", to_string(trial.outcome), low),
+          .advice = "begin where it stands"};
       return bracket;
     } else {
       bracket.moving = trial;
@@ -252,8 +252,8 @@ Bracket follow(EquilibriumPath* path, const PathRange& range, double relative_wi
     next = std::min(high, path->value() + step);
   }
   bracket.found = bracket.narrow = bracket.moving.outcome == StaticOutcome::moving;
-  bracket.message = fmt::format("stands up to {:.6g}, {} at {:.6g}", bracket.stable.value,
-                                to_string(bracket.moving.outcome), bracket.moving.value);
+  bracket.sought.reason = fmt::format("stands up to {:.6g}, {} at {:.6g}", bracket.stable.value,
+                                      to_string(bracket.moving.outcome), bracket.moving.value);
   return bracket;
 }
 

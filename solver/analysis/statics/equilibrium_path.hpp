@@ -3,6 +3,7 @@
 #include "solver/analysis/statics/breaking_solve.hpp"
 #include "solver/analysis/statics/limit_search.hpp"
 #include "solver/analysis/statics/met_in_step.hpp"
+#include "solver/analysis/statics/step_dissipation.hpp"
 
 namespace cupola {
 
@@ -50,8 +51,8 @@ class EquilibriumPath {
   /// The last equilibrium.
   const State& state() const { return loaded_.state; }
   const StaticOptions& options() const { return options_; }
-  int solves() const { return solves_; }             ///< static solves of the last step tried
-  double dissipated() const { return dissipated_; }  ///< J, in joints and ties in the last step
+  int solves() const { return solves_; }                      ///< static solves of the last step tried
+  double dissipated() const { return dissipation_.total(); }  ///< J, in joints and ties in the last step
   const ContactSet& contacts() const { return contacts_; }
   const ContactMemories& memories() const { return memories_; }
 
@@ -80,8 +81,7 @@ class EquilibriumPath {
   double last_step_ = 0.0;  // its length: s, or m of the control
   State start_;
   ContactSet contacts_;
-  double dissipated_ = 0.0;
-  double yield_work_ = 0.0;  // J, of ties in the last solve
+  StepDissipation dissipation_;
   ContactMemories memories_;
   int solves_ = 0;
 };

@@ -73,20 +73,21 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
     ++bracket.trials;
     return try_value(value);
   };
-  bracket.message = "interrupted";
+  bracket.sought.reason = "interrupted";
   const std::optional<LimitTrial> at_low = attempt(low);
   const std::optional<LimitTrial> at_high = at_low ? attempt(high) : std::nullopt;
   if (!at_high) return bracket;
   for (const LimitTrial& end : {*at_low, *at_high}) {
     if (end.outcome != StaticOutcome::unconverged) continue;
-    bracket.message =
-        fmt::format("the solve at {:g}, one end of the bracket, did not converge; move that end", end.value);
+    bracket.sought = {
+        .reason = fmt::format("the solve at {:g}, one end of the bracket, did not converge", end.value),
+        .advice = "move that end"};
     return bracket;
   }
   const bool low_stands = at_low->outcome == StaticOutcome::equilibrium;
   if (at_low->outcome == at_high->outcome) {
     bracket.at_both_ends = at_low->outcome;
-    bracket.message = clauses(at_both_ends(low_stands, low, high));
+    bracket.sought = at_both_ends(low_stands, low, high);
     return bracket;
   }
   bracket.stable = low_stands ? *at_low : *at_high;
@@ -111,12 +112,13 @@ Bracket bisect(double low, double high, const BracketWidth& required, const TryV
     update(*trial, &bracket, &undecided);
   }
   bracket.found = true;
-  bracket.message =
+  bracket.sought.reason =
       fmt::format("stands at {:.6g} (|v|/(g h) = {:.1e}), moves at {:.6g} ({:.1e})", bracket.stable.value,
                   bracket.stable.speed_ratio, bracket.moving.value, bracket.moving.speed_ratio);
   if (undecided)
-    bracket.message += fmt::format("; undecided from {:.6g} to {:.6g}, where the solves did not converge",
-                                   undecided->to_stable, undecided->to_moving);
+    bracket.sought.reason +=
+        fmt::format("; undecided from {:.6g} to {:.6g}, where the solves did not converge",
+                    undecided->to_stable, undecided->to_moving);
   return bracket;
 }
 

@@ -23,7 +23,7 @@ struct Bracket {
   bool found = false;                         ///< one end stands, the other moves
   bool narrow = false;                        ///< found, and of the required width
   std::optional<StaticOutcome> at_both_ends;  ///< of an interval both of whose ends stand, or move
-  std::string message;                        ///< how the search ended
+  Sought sought;                              ///< how the search ended, and what to try: two clauses
   double middle() const { return 0.5 * (stable.value + moving.value); }
 };
 

@@ -9,7 +9,6 @@
 #include "solver/analysis/statics/equilibrium_path.hpp"
 #include "solver/analysis/statics/static_step.hpp"
 #include "solver/collision/fast_blocks.hpp"
-#include "solver/dynamics/energy_account.hpp"
 
 // What follows a step of a path: whether its end is near enough, and equilibrium in the geometry there.
 
@@ -63,7 +62,6 @@ StaticSolution EquilibriumPath::correct(const std::vector<TieMemory>& ties, Stat
     LoadedState from = loaded_;
     for (size_t k = 0; k < from.memories.ties.size(); ++k)
       from.memories.ties[k].yielded = k < ties.size() ? ties[k].yielded : 0.0;
-    dissipated_ -= yield_work_;
     solution = solve_from(from, 0.0);
     solution.iterations += iterations;
     if (solution.outcome == StaticOutcome::equilibrium) continue;

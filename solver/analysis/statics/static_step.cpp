@@ -3,17 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "assembly/model/joint_rule.hpp"
 
 namespace cupola {
 namespace {
 
+/// m/N, of a contact point, but for slivers: faces that do not match, or no longer, meet in points of hardly
+/// any area, whose compliance per area has no bound, and which bear nothing. 0: all joints are rigid.
 double largest_compliance(const Model& model, const State& start, const ContactSet& contacts) {
-  double compliance = 0.0;
-  for (const Contact& contact : contacts.points)
-    compliance = std::max(compliance, joint_law(model, contacts, contact, start.time).compliance_normal);
-  return compliance;
+  constexpr double kSliver = 0.01;  // of the mean area of the points that give way
+  std::vector<double> compliances;
+  double area = 0.0;
+  int giving_way = 0;
+  for (const Contact& contact : contacts.points) {
+    compliances.push_back(joint_law(model, contacts, contact, start.time).compliance_normal);
+    if (compliances.back() == 0.0) continue;
+    area += contact.area;
+    ++giving_way;
+  }
+  double largest = 0.0;
+  for (size_t i = 0; i < compliances.size(); ++i)
+    if (giving_way * contacts.points[i].area >= kSliver * area) largest = std::max(largest, compliances[i]);
+  return largest;
 }
 
 }  // namespace
@@ -52,14 +65,15 @@ double first_static_step(const Model& model, const State& start, const ContactSe
       model.assembly->num_rings > 0 ? model.assembly->num_rings : std::cbrt(model.num_free());
   double gap = 0.0;
   for (const Contact& contact : contacts.points) gap = std::max(gap, contact.gap);
-  const double displacement =
-      courses * gap + courses * largest_compliance(model, start, contacts) * load / std::max(1, at_supports) +
-      imposed_displacement(model, start, options) + (options.control ? options.control->displacement : 0.0);
+  const double compliance = largest_compliance(model, start, contacts);
+  const double displacement = courses * gap + courses * compliance * load / std::max(1, at_supports) +
+                              imposed_displacement(model, start, options) +
+                              (options.control ? options.control->displacement : 0.0);
   // Rigid joints that close but for rounding of the geometry: no step is too long, and a short one would take
   // rounding for gaps.
   constexpr double kRounding = 1e-12;  // of the smallest block
-  if (displacement == 0.0 || (largest_compliance(model, start, contacts) == 0.0 &&
-                              displacement <= kRounding * courses * smallest_block_size(*model.assembly)))
+  if (displacement == 0.0 ||
+      (compliance == 0.0 && displacement <= kRounding * courses * smallest_block_size(*model.assembly)))
     return 1.0;
   return kMargin * std::sqrt(displacement / (acceleration * kContraction));
 }

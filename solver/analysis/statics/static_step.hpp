@@ -17,9 +17,9 @@ double imposed_displacement(const Model& model, const State& start, const Static
 double first_static_step(const Model& model, const State& start, const ContactSet& contacts,
                          double acceleration, const StaticOptions& options);
 
-/// Largest useful h, s: c m / h^2 = 1e-12 for the most compliant contact. Elastic displacements are then
-/// negligible, and the impulses of a mechanism still have a quarter of their digits. Infinite where all
-/// joints are rigid.
+/// Largest useful h, s: c m / h^2 = 1e-12 for the most compliant contact but slivers. Elastic displacements
+/// are then negligible, and the impulses of a mechanism still have a quarter of their digits. Infinite where
+/// all joints are rigid.
 double largest_static_step(const Model& model, const State& start, const ContactSet& contacts);
 
 }  // namespace cupola

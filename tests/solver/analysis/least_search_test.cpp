@@ -68,7 +68,7 @@ TEST(LeastSearch, FindsWhatStandsBelowWhatMoves) {
     LeastSearch search(first, 10.0, {0.01, 1e-4}, LeastSearch::MoreBears::less_at_times);
     for (int stage = 0; stage < 2; ++stage) {
       const LeastSearch::Result result = search.find(solve);
-      ASSERT_TRUE(result.bracket.found) << first << ": " << result.bracket.message;
+      ASSERT_TRUE(result.bracket.found) << first << ": " << result.bracket.sought.reason;
       EXPECT_GE(result.bracket.stable.value, 0.05);
       EXPECT_LT(result.bracket.moving.value, 0.05);
     }

@@ -49,9 +49,9 @@ TEST(LimitOfCase, StandsWhereASpreadDoesThroughout) {
   scene.supports.moves = {move};
   expect(scene, block(), Status::stable, "the structure stands up to the end of the bracket, 2; widen");
   scene.supports.moves[0].displacement.setZero();
-  expect(scene, block(), Status::stable, "spread: the structure stands, and no support moves: give");
+  expect(scene, block(), Status::stable, "spread: the structure stands, and no support moves; give");
   scene.supports.moves.clear();
-  expect(scene, block(), Status::stable, "spread: the structure stands, and no support moves: give");
+  expect(scene, block(), Status::stable, "spread: the structure stands, and no support moves; give");
 }
 
 // Factors below 0 withdraw the support, of whose bearing of 0.2 m they use up 0.7, or 0.14. On the other one,

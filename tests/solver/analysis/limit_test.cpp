@@ -40,9 +40,9 @@ TEST(Bisect, FindsABracketOrReportsWhyNot) {
   EXPECT_GE(found.stable.value, 0.3);
   EXPECT_LT(found.moving.value, 0.3);
   EXPECT_LE(found.stable.value - found.moving.value, 1e-6 * 0.3);
-  EXPECT_EQ(bisect(0.4, 1.0, {1e-6, 0.0}, step_at(0.3)).message,
+  EXPECT_EQ(clauses(bisect(0.4, 1.0, {1e-6, 0.0}, step_at(0.3)).sought),
             "the structure stands at both ends of the bracket, 0.4 and 1; widen the bracket");
-  EXPECT_EQ(bisect(0.0, 0.2, {1e-6, 0.0}, step_at(0.3)).message,
+  EXPECT_EQ(clauses(bisect(0.0, 0.2, {1e-6, 0.0}, step_at(0.3)).sought),
             "the structure moves at both ends of the bracket, 0 and 0.2; it must stand at one");
   EXPECT_EQ(bisect(0.0, 1.0, {1e-6, 0.05}, step_at(0.3)).trials, 2 + 5) << "absolute width 1/32 < 0.05";
   const Bracket lost = bisect(0.0, 1.0, {1e-6, 0.0}, [&](double x) {
@@ -64,7 +64,7 @@ TEST(Bisect, KeepsUndecidedValuesInsideTheBracket) {
   EXPECT_FALSE(bracket.narrow);
   EXPECT_NEAR(bracket.stable.value, 0.31, 1e-3);
   EXPECT_NEAR(bracket.moving.value, 0.28, 1e-3);
-  EXPECT_NE(bracket.message.find("undecided from 0.30"), std::string::npos) << bracket.message;
+  EXPECT_NE(bracket.sought.reason.find("undecided from 0.30"), std::string::npos) << bracket.sought.reason;
 }
 
 // A width below the spacing of doubles cannot be reached. The middle of adjacent doubles is either of them,
@@ -78,7 +78,7 @@ TEST(Bisect, EndsAtAdjacentDoublesBesideUndecidedValues) {
       if (x >= low && x <= high) return LimitTrial{x, StaticOutcome::unconverged, 0.0};
       return LimitTrial{x, x < low ? StaticOutcome::moving : StaticOutcome::equilibrium, 0.0};
     });
-    EXPECT_TRUE(bracket.found) << bracket.message;
+    EXPECT_TRUE(bracket.found) << bracket.sought.reason;
     EXPECT_FALSE(bracket.narrow);
   }
 }

@@ -53,10 +53,15 @@ TEST(Sought, WhatTheCaseDoesOtherwiseIsUnknown) {
   };
   const std::string stands = "the structure stands at every value from 0.7 to 0.9";
   const std::string moves = "the structure moves at every value from 0.05 to 0.1";
+  const std::string leaves_out = "the bracket leaves out the case itself, which has a friction of ";
   expect(of(0.7, 0.9, 0.7), {"critical friction", "no limit above 0.7", stands, "", ""});
-  expect(of(0.7, 0.9, 0.1), {"critical friction", "unknown", stands, "", ""});
+  expect(of(0.7, 0.9, 0.1), {"critical friction", "unknown", stands, "", leaves_out + "0.1"});
   expect(of(0.05, 0.1, 0.1), {"critical friction", "none", moves, "", ""});
-  expect(of(0.05, 0.1, 0.7), {"critical friction", "unknown", moves, "", "the case itself stands"});
+  expect(of(0.05, 0.1, 0.7),
+         {"critical friction", "unknown", moves, "", "the case itself stands; " + leaves_out + "0.7"});
+  expect(of(0.75, 0.9, 0.7),
+         {"critical friction", "no limit above 0.75", "the structure stands at every value from 0.75 to 0.9",
+          "", leaves_out + "0.7"});
 }
 
 // Pulled by 0 it stands, by 3 g to one side and 2 g to the other it slides.
@@ -68,6 +73,20 @@ TEST(Sought, WhatStandsBetweenEndsThatMoveIsUnknown) {
                                 "it stands from -0.3 up to 0.3; " + own});
   expect(limit(scene, slab(), Method::bisection),
          {"critical acceleration", "unknown", reason, "it must stand at one", own});
+}
+
+// A floor moves by up to 0.5 m, and the slab on it too; or it moves by nothing.
+TEST(Sought, OfASpreadTheAdviceIsApart) {
+  Case scene = limit_case(Parameter::spread, 0.0, 0.5, 0.3);
+  scene.supports.moves = {{.region = {}, .displacement = Vec3(1, 0, 0), .time = {}}};
+  const std::string leaves_out = "the bracket leaves out the case itself, which has a spread factor of 1";
+  expect(limit(scene, slab(), Method::bisection),
+         {"critical spread", "not found", "the structure stands up to the end of the bracket, 0.5",
+          "widen the bracket", leaves_out});
+  scene.supports.moves.clear();
+  expect(limit(scene, slab(), Method::bisection),
+         {"critical spread", "not found", "the structure stands, and no support moves",
+          "give the motion that it multiplies, supports.moves", leaves_out});
 }
 
 /// A slab that slides without a force of 0.5 to 1.5 times its weight, and with a share of the weight as force.

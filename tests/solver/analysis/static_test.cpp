@@ -10,6 +10,7 @@
 #include "solver/analysis/statics/static_parts.hpp"
 #include "solver/analysis/statics/static_record.hpp"
 #include "solver/analysis/statics/static_solve.hpp"
+#include "solver/analysis/statics/static_step.hpp"
 #include "tests/solver/analysis/dense_statics.hpp"
 #include "tests/solver/motion_scenes.hpp"
 
@@ -419,6 +420,20 @@ TEST(StaticParts, APartThatFallsDecides) {
   EXPECT_EQ(summary.status, Status::moving) << summary.message;
   EXPECT_EQ(frame.role, FrameRole::mechanism);
   EXPECT_NEAR(frame.blocks.velocity[1].norm(), 1.0, 1e-12);
+}
+
+// A point without an area worth the name gives way by far more than the others, and bears nothing.
+TEST(StaticSolve, ASliverOfAJointDoesNotLengthenSteps) {
+  Case input = make_case(0.6, 1e-9, 0.01);
+  input.joints.compliance.per = Compliance::Per::area;
+  Scene scene(input, testing::box_on_floor({1, 1, 1}));
+  const auto steps = [&] {
+    return std::pair(first_static_step(scene.model, scene.rest, scene.contacts, kG, {}),
+                     largest_static_step(scene.model, scene.rest, scene.contacts));
+  };
+  const auto before = steps();
+  scene.contacts.points[0].area *= 1e-6;
+  EXPECT_EQ(steps(), before);
 }
 
 }  // namespace

@@ -213,7 +213,7 @@ TEST(Verdict, EndsOfALimitWithoutBracketAreShown) {
   expect(0.0, 20.0, "no limit from 0 to 20: the structure stands at both ends of the bracket");
   expect(30.0, 60.0, "moves at every value from 30 to 60; it stands only below, up to 26.5651");
   input.analysis.limit.parameter = LimitSearch::Parameter::load;
-  expect(0.0, 20.0, "no load depends on the parameter: give a load other than weight and fill");
+  expect(0.0, 20.0, "no load depends on the parameter; give a load other than weight and fill");
   input.analysis.limit.parameter = LimitSearch::Parameter::friction;
   expect(0.1, 0.9, "no limit above 0.1: the structure stands at every value from 0.1 to 0.9");
 }
