@@ -42,11 +42,12 @@ bool have_compressive_strength(const Joints& joints) {
          std::ranges::any_of(joints.rings, [&](const RingJoints& group) { return has(group.law); });
 }
 
-/// What an assembly cannot hold of the joints of a run that has moved; empty if nothing is lost.
-std::string lost_of_joints(const ContactTable& contacts, const Joints& joints) {
+/// What an assembly cannot hold of the joints of a run, of one that `moves` also what it crushed; empty if
+/// nothing is lost.
+std::string lost_of_joints(const ContactTable& contacts, const Joints& joints, bool moves) {
   double damage = 0.0;
   for (const double of_point : contacts.damage) damage = std::fmax(damage, of_point);
-  const bool may_be_crushed = have_compressive_strength(joints);
+  const bool may_be_crushed = moves && have_compressive_strength(joints);
   if (damage == 0.0 && !may_be_crushed) return "";
   return fmt::format(
       "joints are exported as new, without their damage (up to {:.2g}){}: other analyses of the export may "
@@ -73,15 +74,17 @@ ExitCode export_run(const RunInput& input, const std::string& path, bool quiet) 
   if (moves) {
     model.poses = poses_of(e.assembly, e.last.frame.blocks);
     model.yielded = yielded_of(e.assembly, e.last.frame.ties, e.scene.ties.pairs.size());
-    if (std::string lost = lost_of_joints(e.last.frame.contacts, e.scene.joints); !lost.empty())
-      warnings.push_back(std::move(lost));
   }
+  const bool is_table = path.ends_with(".csv");  // of joints, with their damage
+  if (std::string lost = lost_of_joints(e.last.frame.contacts, e.scene.joints, moves);
+      !lost.empty() && !is_table)
+    warnings.push_back(std::move(lost));
   if (at_rest(e))
     for (const JointWrench& joint : e.last.joints.wrenches)
       model.joints.push_back(exported(joint, e.last.joints, e.last.frame.contacts));
   else
     warnings.emplace_back("no equilibrium was found, therefore no forces were exported");
-  if (path.ends_with(".csv"))
+  if (is_table)
     write_text_atomically(path, to_csv(joint_table(e, e.last.joints.wrenches)));
   else
     write_export(path, model);

@@ -139,7 +139,8 @@ void check_samples(const std::string& path, const std::vector<std::string>& sett
   for (const size_t row : checked) {
     std::vector<std::string> all = settings;
     all.insert(all.end(), members[row].settings.begin(), members[row].settings.end());
-    check_member(path, {path}, fmt::format("{}: member {}", source, members[row].name), all);
+    const FileLocation where = samples.places.empty() ? FileLocation{path} : samples.places[row];
+    check_member(path, where, fmt::format("{}: member {}", source, members[row].name), all);
   }
 }
 

@@ -63,6 +63,9 @@ Samples read_samples(const std::string& path) {
         throw InputError(where, fmt::format("`{}`: a {} consists of letters, digits and . - + _", cell,
                                             header ? "key path" : "value"));
     if (header) {
+      for (const std::string& key : cells)
+        if (std::ranges::count(cells, key) > 1)
+          throw InputError(where, fmt::format("`{}` has two columns", key));
       samples.keys = std::move(cells);
       continue;
     }
@@ -71,6 +74,7 @@ Samples read_samples(const std::string& path) {
           where, fmt::format("{} for {}; give one per key of the header line", counted(cells.size(), "value"),
                              counted(samples.keys.size(), "key")));
     samples.rows.push_back(std::move(cells));
+    samples.places.push_back(where);
   }
   if (samples.rows.empty())
     throw InputError({path, 0, 0},

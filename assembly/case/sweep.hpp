@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "assembly/base/error.hpp"
+
 namespace cupola {
 
 /// One key of the case varied in a study. All combinations of the values of several keys are run.
@@ -21,7 +23,9 @@ struct SweepMember {
 struct Samples {
   std::vector<std::string> keys;               ///< key paths, as after --set
   std::vector<std::vector<std::string>> rows;  ///< (members x keys)
-  bool operator==(const Samples&) const = default;
+  std::vector<FileLocation> places = {};       ///< of the rows in their file; empty if they were drawn
+  /// The same members, wherever they come from.
+  bool operator==(const Samples& other) const { return keys == other.keys && rows == other.rows; }
 };
 
 /// Reads samples: a header line of key paths, then a line of values per member, separated by commas. Throws

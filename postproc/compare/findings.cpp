@@ -72,9 +72,16 @@ std::string unit_text(const Measure& measure, const PostSummary& run) {
 
 /// What a measure of a run is of: a critical value, a margin, or a state, which of a limit is not the case's.
 std::string subject_of(const Measure& measure, const PostSummary& run) {
-  if (measure.key == kMargin) return "";
-  if (measure.key == kCritical) return run.critical_parameter;
+  if (measure.key == kMargin || measure.key == kCritical) return run.critical_parameter;
   return run.critical_parameter.empty() ? "the case" : "the critical " + run.critical_parameter;
+}
+
+/// Limits of one parameter are called by its name.
+std::string subject_of_all(const Measure& measure, const std::string& subject) {
+  if (measure.key == kCritical && !subject.empty()) return fmt::format("The critical {} is", subject);
+  if (measure.key == kMargin && !subject.empty())
+    return fmt::format("The margin of the case, as a factor on the {}, is", subject);
+  return measure.subject;
 }
 
 std::string sentence(const Measure& measure, const Values& values, const std::vector<PostSummary>& runs,
@@ -98,8 +105,32 @@ std::string sentence(const Measure& measure, const Values& values, const std::ve
     return fmt::format("{} {}: of {}, which do not compare.", measure.subject, numbers,
                        fmt::join(subjects, ", "));
   const std::string& subject = *subjects.begin();
-  return fmt::format("{} {}: {}{}.", measure.subject, numbers, conclusion(measure, values, labels),
+  return fmt::format("{} {}: {}{}.", subject_of_all(measure, subject), numbers,
+                     conclusion(measure, values, labels),
                      subject.starts_with("the critical ") ? ", at " + subject : "");
+}
+
+/// "The friction law is associated in A, coulomb in B."; "" where it is the same in all runs.
+std::string difference(const std::string& name, const std::vector<std::string>& values,
+                       const std::vector<std::string>& labels) {
+  if (std::ranges::all_of(values, [&values](const std::string& v) { return v == values.front(); })) return "";
+  std::vector<std::string> of_runs;
+  for (size_t i = 0; i < values.size(); ++i) of_runs.push_back(values[i] + " in " + labels[i]);
+  return fmt::format("The {} is {}.", name, fmt::join(of_runs, ", "));
+}
+
+/// What the runs were given differently, before what they found.
+std::vector<std::string> differences(const std::vector<PostSummary>& runs,
+                                     const std::vector<std::string>& labels) {
+  std::vector<std::string> laws, frictions, sentences;
+  for (const PostSummary& run : runs) {
+    laws.push_back(run.friction_law);
+    frictions.push_back(fmt::format("{:.4g}", run.friction));
+  }
+  for (const std::string& text :
+       {difference("friction law", laws, labels), difference("friction of the case", frictions, labels)})
+    if (!text.empty()) sentences.push_back(text);
+  return sentences;
 }
 
 /// Says where the runs differ in contact points while compliance is given per point; "" elsewhere.
@@ -157,7 +188,7 @@ const std::vector<Measure>& measures() {
        [](const S& s) {
          return s.thrust_over_weight ? std::optional(*s.thrust_over_weight * s.weight_N) : std::nullopt;
        }},
-      {kMargin, "", 1.0, "The margin, as a factor of the case from its limit, is",
+      {kMargin, "", 1.0, "The margin of the case, as a factor, is",
        "How far the case is from the limit that was computed: 2 if half the friction or twice the load is "
        "still borne.",
        "largest", Best::highest, [](const S& s) { return s.margin_factor; }},
@@ -190,6 +221,7 @@ std::vector<std::string> findings(const std::vector<PostSummary>& runs) {
       sentences.push_back(
           fmt::format("{} ended with the status `{}`{}.", labels[i], runs[i].status,
                       runs[i].largest_friction_use ? "" : ": it has no equilibrium to compare"));
+  for (std::string& given : differences(runs, labels)) sentences.push_back(std::move(given));
   if (std::string warning = points_warning(runs, labels); !warning.empty())
     sentences.push_back(std::move(warning));
   for (const Measure& measure : measures()) {

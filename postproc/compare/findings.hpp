@@ -28,7 +28,8 @@ std::vector<std::string> run_labels(size_t num_runs);
 
 /// One sentence per measure that at least two runs have. Each sentence gives the number of every run and
 /// names the best run. Zeros are called negligible: the summary of a run sets to zero what is below its
-/// floor, because a ratio of two rounding errors means nothing. Runs that are not stable are reported first.
+/// floor, because a ratio of two rounding errors means nothing. Runs that are not stable are reported first,
+/// then different friction laws and frictions, which explain other differences.
 std::vector<std::string> findings(const std::vector<PostSummary>& runs);
 
 /// One row per run and one column per measure, for the CSV file.

@@ -260,6 +260,11 @@ bool has_scaled_joints(const Evaluation& e) {
   return e.summary.critical && e.summary.critical->parameter == "joint_extent";
 }
 
+std::string of_extent(const Evaluation& e) {
+  return has_scaled_joints(e) ? fmt::format(", of {:.4g} times their extent", e.summary.critical->stable)
+                              : "";
+}
+
 bool is_rigid(const Evaluation& e) {
   return is_limit(e) || !e.summary.ranges.empty();
 }

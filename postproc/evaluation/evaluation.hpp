@@ -107,6 +107,9 @@ bool is_limit(const Evaluation& evaluation);
 /// True if the joints evaluated are those of a critical joint_extent, of other extent than as built.
 bool has_scaled_joints(const Evaluation& evaluation);
 
+/// ", of 0.8 times their extent": what headings of joints add then; "" otherwise.
+std::string of_extent(const Evaluation& evaluation);
+
 /// True if supports move in time, and the forces are those at the time 0, before they do.
 bool supports_have_not_moved(const Evaluation& evaluation);
 

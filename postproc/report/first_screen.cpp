@@ -34,7 +34,7 @@ void add_numbers_at_rest(const Evaluation& e, std::vector<KeyNumber>* out) {
   for (const ForceRange& range : e.summary.ranges)
     if (out->size() < 2 && !range.quantity.starts_with("thrust")) out->push_back(range_number_of(range));
   if (std::optional<KeyNumber> thrust = thrust_answer(e)) {
-    const bool first = !e.summary.ranges.empty() && !e.summary.ranges.front().quantity.compare("thrust");
+    const bool first = !e.summary.ranges.empty() && e.summary.ranges.front().quantity.starts_with("thrust");
     out->insert(first ? out->begin() : out->end(), std::move(*thrust));
   }
   if (const PostSummary s = post_summary(e); s.largest_strength_use) {

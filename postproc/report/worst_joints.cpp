@@ -62,9 +62,7 @@ std::string at_rest_html(const Evaluation& e) {
   });
   if (worst.edge && ideal)
     out = "<li>No joint is near sliding or opening: every force is normal to its joint and central.</li>\n";
-  const std::string extent =
-      has_scaled_joints(e) ? fmt::format(", of {:.4g} times their extent", e.summary.critical->stable) : "";
-  return list_html("Worst joints" + extent, out);
+  return list_html("Worst joints" + of_extent(e), out);
 }
 
 std::string moving_html(const Evaluation& e) {

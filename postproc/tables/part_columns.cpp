@@ -107,7 +107,7 @@ const Columns<Reaction>& reaction_columns() {
       {"length_m", "m",
        "of its joints along the course, area over the thickness of the wythes; empty: none, as of the cut "
        "back of a "
-       "rib",
+       "rib or of shrunk joints",
        &S::length},
       {"vertical_N_per_m", "N/m", "downwards on the support, per metre of support",
        [](const S& r) { return per_metre(-r.force.z(), r); }},

@@ -106,7 +106,9 @@ const Columns<JointWrench>& joint_columns() {
       {"axis_{}_m", "m", "point on the central axis", [](const J& j) { return j.axis.point; }},
       {"couple_length_m", "m", "couple over force on the central axis", &J::couple_length},
       {"normal_force_N", "N", "sum of the normal forces of the contact points", &J::normal_force},
-      {"area_m2", "m2", "area of the joint, without what opens beyond `contact.margin`",
+      {"area_m2", "m2",
+       "area of the joint, without what opens beyond `contact.margin`; in a limit of `joint_extent` that of "
+       "the shrunk joint, to which its edge, kern and pressure belong, too",
        [](const J& j) { return j.area; }},
       {"eccentricity_m", "m", "distance of the centre of pressure from the joint's centroid",
        &J::eccentricity},

@@ -98,9 +98,9 @@ Table wythe_table(const Evaluation& e) {
 }
 
 Table joint_table(const Evaluation& e, std::span<const JointWrench> joints) {
-  return with_block_names(
-      e.assembly, make_table("joints", "Joints: wrench on the second block about the centre of pressure",
-                             joint_columns(), joints));
+  const std::string title =
+      "Joints" + of_extent(e) + ": wrench on the second block about the centre of pressure";
+  return with_block_names(e.assembly, make_table("joints", title, joint_columns(), joints));
 }
 
 Table block_table(const Evaluation& e, std::span<const BlockRow> blocks) {

@@ -1,8 +1,10 @@
-// Several views on one page: one camera, one set of controls, one scale of colours and of forces.
+// Several views on one page: one camera, one set of controls, one scale of colours, of forces and of displacements.
 
 function linkViewers(viewers) {
   linkCameras(viewers);
   linkControls(viewers);
+  const most = Math.min(...viewers.map((viewer) => viewer.mostMagnified));
+  for (const viewer of viewers) if (viewer.mostMagnified < Infinity) viewer.limitMagnification(most);
   const scales = viewers.map((viewer) => viewer.model.forceScale).filter((scale) => scale > 0);
   for (const viewer of viewers) {
     for (const part of [".picture", ".numbers"]) viewer.find(part).dataset.label = viewer.host.dataset.label;

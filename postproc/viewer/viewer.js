@@ -190,14 +190,20 @@ class Viewer {
 
   addMagnifier() {
     const film = this.header.film, output = this.find(".of-magnification output");
-    const most = film.largest_shift_m > 0 ? Math.max(1, 0.1 * this.model.size / film.largest_shift_m) : 1;
-    this.find(".of-magnification").hidden = most < 2 || !["displacement", "motion"].includes(film.kind);
+    const moves = film.largest_shift_m > 0 && ["displacement", "motion"].includes(film.kind);
+    this.limitMagnification(moves ? Math.max(1, 0.1 * this.model.size / film.largest_shift_m) : Infinity);
     const set = (s) => {
-      this.model.pose.factor = s > 0 ? most ** s : 1;
+      this.model.pose.factor = s > 0 ? this.mostMagnified ** s : 1;
       output.textContent = `× ${digits(Number(this.model.pose.factor.toPrecision(3)))}`;
     };
     set(0);
     this.on(".magnify", "input", (e) => { set(Number(e.target.value)); this.model.update(); });
+  }
+
+  /** The largest factor; Infinity: nothing moves. */
+  limitMagnification(most) {
+    this.mostMagnified = most;
+    this.find(".of-magnification").hidden = most < 2 || most === Infinity;
   }
 
   addCuts() {

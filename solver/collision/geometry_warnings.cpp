@@ -1,11 +1,13 @@
 #include "solver/collision/geometry_warnings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "assembly/base/counted.hpp"
 #include "assembly/base/error.hpp"
 #include "assembly/model/block_names.hpp"
 #include "assembly/model/joint_rule.hpp"
@@ -18,6 +20,7 @@ namespace cupola {
 namespace {
 
 constexpr double kOverlap = 1e-6;  // of the smallest block; 10,000 times the clipping tolerance
+constexpr double kGap = 1e-3;      // of the smallest block; a tenth of the default margin
 
 /// Largest value found for each pair of blocks.
 using PairValues = std::map<std::pair<int, int>, double>;
@@ -31,12 +34,19 @@ void keep_largest(PairValues* values, std::pair<int, int> pair, double value) {
 struct BadJoints {
   PairValues overlaps;  // depth, m
   PairValues slivers;   // width, m
+  PairValues gaps;      // m
 };
 
-/// Checks parts i and k of two blocks. `widest`: m, width of the widest patch of the blocks so far, 0: none.
+/// The joint of two blocks, of all patches so far.
+struct WholeJoint {
+  double widest = 0.0;                                   // m, width of a patch; 0: none
+  double gap = std::numeric_limits<double>::infinity();  // m, the least of patches that are no slivers
+};
+
+/// Checks parts i and k of two blocks.
 void examine_parts(const Assembly& assembly, const ContactDetector& detector,
                    const Eigen::Isometry3d& pose_ab, const NarrowPhaseOptions& any_width, int i, int k,
-                   double* widest, BadJoints* bad) {
+                   WholeJoint* joint, BadJoints* bad) {
   const CollisionModel& model = detector.model();
   if (separated_by_face(model, i, k, pose_ab, any_width.margin)) return;
   const int a = model.parts[i].block, b = model.parts[k].block;
@@ -47,9 +57,12 @@ void examine_parts(const Assembly& assembly, const ContactDetector& detector,
                     "geometry or increase contact.margin",
                     block_label(assembly, a), block_label(assembly, b), depth, detector.margin()));
   if (depth > kOverlap * model.smallest_block) keep_largest(&bad->overlaps, {a, b}, depth);
-  if (*widest >= detector.narrow_phase().min_width) return;  // no sliver
-  for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width))
-    *widest = std::max(*widest, polygon_width(patch.outline()));
+  if (joint->gap <= kGap * model.smallest_block) return;  // no sliver, and closed
+  for (const JointPatch& patch : clip_opposed_faces(model, i, k, pose_ab, any_width)) {
+    const double width = polygon_width(patch.outline());
+    joint->widest = std::max(joint->widest, width);
+    if (width >= detector.narrow_phase().min_width) joint->gap = std::min(joint->gap, patch.min_gap);
+  }
 }
 
 /// Checks block a against the blocks of larger index.
@@ -62,12 +75,28 @@ void examine_block(const Assembly& assembly, const ContactDetector& detector, co
     if (!overlap(box_a, box(b))) continue;
     Eigen::Isometry3d pose_ab = Eigen::Isometry3d::Identity();
     pose_ab.translation() = poses[b].p_WB - poses[a].p_WB;
-    double widest = 0.0;  // parts of cut stones may share slivers of a joint that is wide as a whole
+    WholeJoint joint;  // parts of cut stones may share slivers of a joint that is wide as a whole
     for (int i = model.part_start[a]; i < model.part_start[a + 1]; ++i)
       for (int k = model.part_start[b]; k < model.part_start[b + 1]; ++k)
-        examine_parts(assembly, detector, pose_ab, any_width, i, k, &widest, bad);
-    if (widest > 0.0 && widest < detector.narrow_phase().min_width) bad->slivers[{a, b}] = widest;
+        examine_parts(assembly, detector, pose_ab, any_width, i, k, &joint, bad);
+    if (joint.widest > 0.0 && joint.widest < detector.narrow_phase().min_width)
+      bad->slivers[{a, b}] = joint.widest;
+    if (joint.gap > kGap * model.smallest_block && std::isfinite(joint.gap)) bad->gaps[{a, b}] = joint.gap;
   }
+}
+
+/// One sentence about all joints that are drawn open.
+std::string gaps_text(const Assembly& assembly, const PairValues& gaps) {
+  const auto& [pair, gap] =
+      *std::ranges::max_element(gaps, {}, [](const auto& of_pair) { return of_pair.second; });
+  return fmt::format(
+      "{} drawn open within contact.margin, by up to {:.3g} m between blocks {} and {}: they bear nothing "
+      "until "
+      "they close, count as cracks, and are closed in ranges and limits; if they are errors of the drawing, "
+      "set "
+      "contact.initial_gaps: ignore",
+      counted(gaps.size(), "joint is", "joints are"), gap, block_label(assembly, pair.first),
+      block_label(assembly, pair.second));
 }
 
 /// Smallest distance between a face and the vertex farthest behind it, m.
@@ -101,10 +130,12 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
     for (int block = start; block < std::min(start + kBlocksPerChunk, model.num_blocks()); ++block)
       examine_block(assembly, detector, poses, near, any_width, block, &chunks[chunk]);
   });
-  PairValues overlaps, slivers;
+  PairValues overlaps, slivers, gaps;
   for (const BadJoints& chunk : chunks) {
-    if (!options.ignore_initial_gaps)
+    if (!options.ignore_initial_gaps) {
       for (const auto& [pair, depth] : chunk.overlaps) keep_largest(&overlaps, pair, depth);
+      for (const auto& [pair, gap] : chunk.gaps) keep_largest(&gaps, pair, gap);
+    }
     for (const auto& [pair, width] : chunk.slivers) keep_largest(&slivers, pair, width);
   }
 
@@ -113,6 +144,7 @@ std::vector<std::string> geometry_warnings(const Assembly& assembly, const Detec
   for (const auto& [pair, depth] : overlaps)
     warnings.push_back(fmt::format("blocks {} and {} overlap by {:.3g} m: their contacts start compressed",
                                    label(pair.first), label(pair.second), depth));
+  if (!gaps.empty()) warnings.push_back(gaps_text(assembly, gaps));
   for (const auto& [pair, width] : slivers)
     warnings.push_back(
         fmt::format("blocks {} and {}: their joint is only {:.3g} m wide, less than 1e-3 of the smallest "

@@ -44,7 +44,7 @@ def least_friction(out, model):
 def row(out, model):
     results, post = (json.loads((out / model / folder / "summary.json").read_text()) for folder in ("results", "post"))
     span = json.loads((out / f"{model}_range/results/summary.json").read_text())
-    thrust = next(r for r in span["ranges"] if r["quantity"] == "thrust")
+    thrust = next(r for r in span["ranges"] if r["quantity"].startswith("thrust"))
     least, greatest = ("" if (v := thrust[end].get("value")) is None else f"{v / 1e6:.4g}" for end in ("min", "max"))
     inner, outer, ribs = shares(out / model / "post")
     base = rows(out / model / "post/rings.csv")[0]

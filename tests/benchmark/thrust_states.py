@@ -33,7 +33,7 @@ def weight_and_summary(folder):
 range_run, *folders = (pathlib.Path(sys.argv[1]) / name for name in sys.argv[2:])
 picture = "docs/pictures/thrust_states.png"
 weight, summary = weight_and_summary(range_run)
-thrust = next(r for r in summary["ranges"] if r["quantity"] == "thrust")
+thrust = next(r for r in summary["ranges"] if r["quantity"].startswith("thrust"))
 low, high = (thrust[end]["value"] / weight for end in ("min", "max"))
 same, other, outside = [], [], []
 for folder in folders:

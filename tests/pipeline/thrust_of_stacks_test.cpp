@@ -98,7 +98,7 @@ TEST(ThrustOfStacks, ARangeOfTheThrustIsThatOfEachStack) {
   Evaluation e = solve_and_evaluate(both, folder);
   e.summary.ranges = run_range(scene, e.assembly, {}).value().ranges;
   ASSERT_EQ(e.summary.ranges.size(), 2u);
-  EXPECT_EQ(e.summary.ranges[0].quantity, "thrust");
+  EXPECT_EQ(e.summary.ranges[0].quantity, "thrust of small");
   EXPECT_EQ(e.summary.ranges[1].quantity, "thrust of large");
   const ProgramFolder alone_folder;
   const Case alone = read(alone_folder, fmt::format("geometry: {{{}}}\njoints: {{friction: 0.7, compliance: "

@@ -103,17 +103,19 @@ TEST(ExportRun, WarnsOfBlocksThatTheLastStageHasNotLaid) {
   EXPECT_NE(said.find("1 block that the last stage has not laid"), std::string::npos) << said;
 }
 
-// An assembly holds no damage and no crushing of joints: said where a path has left some.
+// An assembly holds no damage and no crushing of joints: said where a path has left some, or the stages of a
+// construction. The table of joints has a column for it.
 TEST(ExportRun, WarnsOfDamageThatIsLost) {
   const Assembly a = test::column(3);
-  const auto said_of = [&a](double damage, bool crushes) {
+  const auto said_of = [&a](double damage, bool crushes, FrameRole role = FrameRole::path,
+                            const std::string& ending = ".vtu") {
     const std::string folder = test::fresh_folder("exported");
     write_assembly(folder + "/assembly.vtu", a);
     ResultsWriter writer(folder + "/results", content_hash(a));
     Summary summary = test::column_summary(a);
     summary.analysis = AnalysisType::path;
     Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3);
-    set_role(FrameRole::path, "", &frame);
+    set_role(role, "", &frame);
     ContactTable& contacts = frame.contacts;
     const std::vector<double> zero(static_cast<size_t>(contacts.size()), 0.0);
     contacts.friction_limit = contacts.strength_use = contacts.damage = contacts.crack_opening = zero;
@@ -127,12 +129,14 @@ TEST(ExportRun, WarnsOfDamageThatIsLost) {
     scene.joints.strength.cohesion = 1e5;
     if (crushes) scene.joints.strength.compression = 1e6;
     testing::internal::CaptureStderr();
-    export_run({scene, folder + "/assembly.vtu", folder + "/results"}, folder + "/column.vtu", true);
+    export_run({scene, folder + "/assembly.vtu", folder + "/results"}, folder + "/column" + ending, true);
     return testing::internal::GetCapturedStderr();
   };
   EXPECT_EQ(said_of(0.0, false).find("exported as new"), std::string::npos);
   EXPECT_NE(said_of(0.75, false).find("without their damage (up to 0.75):"), std::string::npos);
   EXPECT_NE(said_of(0.0, true).find("(up to 0) and crushing:"), std::string::npos);
+  EXPECT_NE(said_of(1.0, false, FrameRole::stage).find("without their damage (up to 1):"), std::string::npos);
+  EXPECT_EQ(said_of(0.75, true, FrameRole::path, ".csv").find("exported as new"), std::string::npos);
 }
 
 }  // namespace

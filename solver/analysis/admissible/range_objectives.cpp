@@ -133,7 +133,7 @@ std::vector<RangeObjective> Objectives::operator()(const BaseThrust&) const {
   std::vector<RangeObjective> objectives;
   for (const Sheet* sheet : pushing)
     objectives.push_back(
-        {objectives.empty() ? "thrust" : "thrust of " + sheet->name, "N", thrust_of(*sheet), {}, {}});
+        {pushing.size() == 1 ? "thrust" : "thrust of " + sheet->name, "N", thrust_of(*sheet), {}, {}});
   return objectives;
 }
 

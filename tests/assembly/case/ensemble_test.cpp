@@ -154,7 +154,7 @@ TEST(Samples, OfAFileAreReadAndChecked) {
   EXPECT_EQ(members[1].name, "wall/0002");
   EXPECT_EQ(members[1].settings,
             (std::vector<std::string>{"joints.friction=4e-1", "joints.rings[0].from=2"}));
-  for (const char* bad : {"", "a\n", "a,b\n1\n", "a\n$(x)\n", "a b\n1\n", "a,\n1,2\n"})
+  for (const char* bad : {"", "a\n", "a,b\n1\n", "a\n$(x)\n", "a b\n1\n", "a,\n1,2\n", "a,b,a\n1,2,3\n"})
     EXPECT_THROW(read_samples(scratch.write("bad.csv", bad)), InputError) << bad;
   scratch.write("low.csv", "joints.friction\n0.3\n-0.1\n0.5\n");
   const std::string wall = scratch.write("wall.yaml", std::string(kWall) + "sweep: {file: low.csv}\n");
@@ -178,7 +178,8 @@ TEST(Samples, AreCheckedAsWholeMembers) {
     read_case(wall);
     ADD_FAILURE() << "0.7 is above 0.6";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("sweep: member 0002: "), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("s.csv:3:1: error: sweep: member 0002: "), std::string::npos)
+        << error.what();
   }
 }
 

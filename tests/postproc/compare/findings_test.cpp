@@ -73,6 +73,37 @@ TEST(Findings, StatesOfLimitsCompareOnlyWithTheirLike) {
   EXPECT_TRUE(of_thrust().ends_with("of the case, the critical friction, which do not compare."));
 }
 
+// A factor on the friction is no factor on the load, and 0.1 is a friction where the limit is one of friction.
+TEST(Findings, MarginsAndCriticalValuesNameTheirLimit) {
+  auto runs = two_runs();
+  const auto said = [&runs](const std::string& start) {
+    for (const std::string& sentence : findings(runs))
+      if (sentence.starts_with(start)) return sentence;
+    return std::string();
+  };
+  runs[0].critical_parameter = runs[1].critical_parameter = "friction";
+  EXPECT_EQ(said("The margin"),
+            "The margin of the case, as a factor on the friction, is 4 in A, 2.6 in B: largest in A, by a "
+            "factor of 1.54.");
+  EXPECT_TRUE(said("The critical friction is 0.101 in A, 0.152 in B: lowest in A").size() > 0);
+  runs[1].critical_parameter = "load";
+  EXPECT_EQ(said("The margin"),
+            "The margin of the case, as a factor, is 4 in A, 2.6 in B: of friction, load, which do not "
+            "compare.");
+}
+
+// What was given explains what was found: it comes first.
+TEST(Findings, NameDifferentLawsAndFrictions) {
+  auto runs = two_runs();
+  runs[0].friction_law = runs[1].friction_law = "associated";
+  runs[0].friction = runs[1].friction = 0.4;
+  EXPECT_EQ(findings(runs).size(), measures().size());
+  runs[1].friction_law = "coulomb";
+  runs[1].friction = 0.7;
+  EXPECT_EQ(findings(runs)[0], "The friction law is associated in A, coulomb in B.");
+  EXPECT_EQ(findings(runs)[1], "The friction of the case is 0.4 in A, 0.7 in B.");
+}
+
 TEST(Findings, SaysThatStiffnessDiffersWithTheNumberOfPoints) {
   auto runs = two_runs();
   runs[0].compliance_per = runs[1].compliance_per = "point";

@@ -12,6 +12,7 @@
 #include "postproc/report/motion.hpp"
 #include "postproc/report/report.hpp"
 #include "postproc/report/worst_joints.hpp"
+#include "postproc/tables/result_tables.hpp"
 #include "tests/postproc/scene.hpp"
 
 namespace cupola::first_screen_test {
@@ -112,6 +113,8 @@ TEST(FirstScreen, TheLeastExtentOfTheJointsIsAGeometricSafetyFactor) {
   for (const std::string& sentence : finding_sentences(e))
     EXPECT_EQ(sentence.find("eometric safety"), std::string::npos) << sentence;
   EXPECT_NE(worst_joints_html(e).find("Worst joints, of 0.8 times their extent"), std::string::npos);
+  EXPECT_TRUE(
+      joint_table(e, e.last.joints.wrenches).title.starts_with("Joints, of 0.8 times their extent: "));
   EXPECT_TRUE(std::isnan(thrusts_of(e, e.assembly.sheets.front()).front().supports.front().length))
       << "shrunk joints are not as long as their support";
 }

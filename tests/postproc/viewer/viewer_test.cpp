@@ -290,6 +290,35 @@ TEST_F(Viewer, LinksTheViewsOfAComparison) {
   EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
 }
 
+/// At rest, with the upper blocks displaced by `shift` (m).
+std::string displaced_column(const std::string& name, double shift) {
+  const Assembly a = test::column(3);
+  Frame frame = test::column_at_rest(a, test::kGravity, 0.0, 0.5, 0.3);
+  for (const size_t b : {2u, 3u}) {
+    frame.blocks.displacement[b] = Vec3(shift, 0, 0);
+    frame.blocks.position[b].x() += shift;
+  }
+  return test::analysed_column(name, {frame}, test::column_summary(a));
+}
+
+// 1 and 4 mm were drawn alike, each as a tenth of the model. One factor shows that one is four times the
+// other.
+TEST_F(Viewer, MagnifiesTheDisplacementsOfAComparisonAlike) {
+  const std::string folder = test::fresh_folder("magnified");
+  ASSERT_EQ(compare({displaced_column("little", 1e-3), displaced_column("more", 4e-3)}, folder, true),
+            ExitCode::done);
+  browser->open(folder + "/comparison.html");
+  EXPECT_EQ(browser->value("window.cupolaViews.then((v) => { window.views = v; return v.length; })"), 2);
+  browser->value(
+      "(() => { const s = views[0].find('.magnify'); s.value = 1; s.dispatchEvent(new Event('input', "
+      "{bubbles: true})); })()");
+  const double first = browser->value("views[0].model.pose.factor"),
+               second = browser->value("views[1].model.pose.factor");
+  EXPECT_EQ(first, second);
+  EXPECT_GT(first, 2.0);
+  EXPECT_EQ(fmt::format("{}", fmt::join(browser->complaints(), "\n")), "");
+}
+
 std::string column_with_wythes() {
   const Assembly a = test::column_with_wythes();
   return test::analysed_column("wythes", {test::column_with_a_tie(a)}, test::column_summary(a), a);

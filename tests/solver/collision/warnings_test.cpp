@@ -37,6 +37,29 @@ TEST(GeometryWarnings, OfAnOverlapStateBlocksAndDepth) {
   expect_valid_contacts(scene);
 }
 
+// A tenth of the default margin, and a hair on each side. A joint that is closed somewhere is none.
+TEST(GeometryWarnings, OfJointsThatAreDrawnOpen) {
+  const auto with_gap = [](double gap) {
+    return make_boxes(
+        {{.fixed = true}, {.center = {0, 0, 1 + 0.75 * gap}}, {.center = {0, 0, 2 + 1.75 * gap}}});
+  };
+  EXPECT_TRUE(geometry_warnings(with_gap(0.999e-3), {}).empty());
+  EXPECT_TRUE(
+      only_warning(with_gap(2e-3))
+          .starts_with(
+              "2 joints are drawn open within contact.margin, by up to 0.002 m between blocks 1 and 2: "))
+      << only_warning(with_gap(2e-3));
+  DetectionOptions ignored;
+  ignored.ignore_initial_gaps = true;
+  EXPECT_TRUE(geometry_warnings(with_gap(2e-3), ignored).empty());
+  Assembly stepped = make_boxes({{.size = {2, 1, 1}, .fixed = true}});
+  add_block({}, &stepped);
+  add_box_part({.center = {-0.5, 0, 1.002}}, false, true, &stepped);
+  add_box_part({.center = {0.5, 0, 1}}, true, false, &stepped);
+  compute_mass_properties(&stepped);
+  EXPECT_TRUE(geometry_warnings(stepped, {}).empty());
+}
+
 TEST(GeometryWarnings, RejectOverlapsBeyondTheMargin) {
   const auto message = [](const Assembly& scene) {
     try {
