@@ -363,8 +363,8 @@ std::string to_text(const ModelReport& r) {
       r.largest_block);
   if (r.blocks_on_edges > 0)
     text += fmt::format(
-        "{} others at edges or corners only, where the solver finds joints that are not counted here\n",
-        r.blocks_on_edges == 1 ? "1 block touches" : fmt::format("{} blocks touch", r.blocks_on_edges));
+        "{} in contact at edges or corners only, where the solver finds joints that are not counted here\n",
+        counted(r.blocks_on_edges, "block"));
   if (r.shell_volume)
     text += fmt::format("smooth shell {:.9g} m3; the facets reduce it by a fraction of {:.3e}\n",
                         *r.shell_volume, 1.0 - r.volume / *r.shell_volume);
