@@ -66,6 +66,7 @@ std::string report_json(const Assembly& assembly, const GenerateReport& report) 
                               {"joints", m.num_joints},
                               {"islands", m.islands},
                               {"blocks_without_joint", m.blocks_without_joint},
+                              {"blocks_on_edges", m.blocks_on_edges},
                               {"volume_m3", m.volume},
                               {"parts_volume_m3", m.parts_volume},
                               {"smallest_block_m3", m.smallest_block},

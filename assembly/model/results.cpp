@@ -1,10 +1,11 @@
 #include "assembly/model/results.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
+
+#include "assembly/base/with_capital.hpp"
 
 namespace cupola {
 namespace {
@@ -21,11 +22,8 @@ std::string label_of(const Frame& frame) {
                  ? fmt::format("course {:g} laid", course)
                  : fmt::format("course {:g}, {:.0f} % laid", course, 100.0 * (1.0 - course + frame.time));
     case FrameRole::range_end:
-    case FrameRole::self_stress: {
-      std::string label = frame.owner;
-      if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-      return label;
-    }
+    case FrameRole::self_stress:
+      return with_capital(frame.owner);
     case FrameRole::equilibrium:
     case FrameRole::mechanism:
     case FrameRole::unconverged:

@@ -176,7 +176,7 @@ double solid_volume_in(const Slicer& s, const ConvexPolyhedron& cell) {
     ConvexPolyhedron piece = tetrahedron(apex, a, b, c);
     for (const Plane& plane : cell.planes) {
       if (piece.empty()) break;
-      piece = clip(piece, plane, 0.0);
+      piece = clip(piece, plane, s.length);  // rounding of a face in the plane must not wind about it
     }
     if (!piece.empty()) volume += std::copysign(polyhedron_volume(piece), six);
   }

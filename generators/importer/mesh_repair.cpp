@@ -165,6 +165,20 @@ Soup triangle_soup(const RawBlock& block, const PolygonMesh& mesh) {
   return soup;
 }
 
+/// Turns the faces outwards, those of a cavity into it, unless the drawing turns them `consistently`.
+void orient(const RawBlock& block, bool consistently, SurfaceMesh* surface) {
+  if (!consistently)
+    pmp::orient_to_bound_a_volume(*surface);
+  else if (!pmp::does_bound_a_volume(*surface))
+    fail(block,
+         "one of its closed surfaces is inside out: the faces of solids look outwards, those of cavities "
+         "into the cavity");
+  else if (!pmp::is_outward_oriented(*surface))
+    fail(block,
+         "inside out: reverse its faces, or, if it is the cavity of another block, draw both as one object "
+         "(OBJ)");
+}
+
 TriangleMesh to_triangles(const SurfaceMesh& surface, const FaceNumbers& face_of_file) {
   TriangleMesh mesh;
   std::vector<int> id(surface.num_vertices(), -1);
@@ -216,10 +230,7 @@ TriangleMesh repair_mesh(const RawBlock& block, double weld, int* doubled) {
   if (open_edges > 0) fail(block, fmt::format("not closed, {}", counted(open_edges, "boundary edge")));
   if (!pmp::triangulate_faces(surface)) fail(block, "a face cannot be triangulated");
   if (pmp::does_self_intersect(surface)) fail(block, "its surface intersects itself");
-  if (!pmp::is_outward_oriented(surface)) {
-    if (consistent) fail(block, "inside out: reverse its faces");
-    pmp::reverse_face_orientations(surface);
-  }
+  orient(block, consistent, &surface);
   surface.collect_garbage();
   return to_triangles(surface, face_of_file);
 }

@@ -57,17 +57,18 @@ class Carving {
     }
   }
 
-  /// Takes bodies from all pieces; the faces of stones that lie on them.
-  std::vector<std::vector<Vec3>> take(const std::vector<std::vector<Plane>>& bodies, bool from_supports,
-                                      const std::string& key) {
+  /// Takes the bodies of a cut from all pieces; the faces of stones that lie on them.
+  std::vector<std::vector<Vec3>> take(const CutBody& of) {
     std::vector<std::vector<Vec3>> faces;
     bool any = false;
-    for (const std::vector<Plane>& body : bodies) any = take_one(body, from_supports, &faces) || any;
-    if (!any && !from_supports)
-      throw InputError(key +
-                       ": the cut takes nothing; its coordinates, in m, are those of the member before `at`");
+    for (const std::vector<Plane>& body : of.bodies) any = take_one(body, of.from_supports, &faces) || any;
+    if (!any && !of.from_supports)
+      throw InputError(of.key + ": the cut takes nothing; " +
+                       (of.cut.kind == Cut::Kind::under || of.cut.kind == Cut::Kind::over
+                            ? "the member or a copy of it lies beside " + of.cut.member
+                            : "its coordinates, in m, are those of the member before `at`"));
     if (std::ranges::none_of(cells_, [&](const Cell& c) { return !assembly_->blocks[c.block].fixed; }))
-      throw InputError(key + ": the cut takes all blocks");
+      throw InputError(of.key + ": the cut takes all blocks");
     return faces;
   }
 
@@ -429,11 +430,10 @@ void cut_bodies(const std::vector<CutBody>& bodies, const MemberStart& start, do
   Carving carving(start, std::move(bed_under), gap, assembly);
   std::vector<std::vector<std::vector<Vec3>>> faces(bodies.size());
   for (size_t i = 0; i < bodies.size(); ++i) {
-    const auto& [cut, taken, key, from_supports] = bodies[i];
-    if (cut.as == Cut::As::joint)
-      carving.part(taken.front(), key);
+    if (bodies[i].cut.as == Cut::As::joint)
+      carving.part(bodies[i].bodies.front(), bodies[i].key);
     else
-      faces[i] = carving.take(taken, from_supports, key);
+      faces[i] = carving.take(bodies[i]);
   }
   carving.write();
   mark_internal_faces(start.part, 1e3 * carving.rounding() + 2.0 * gap, assembly);  // of rests, beyond a gap

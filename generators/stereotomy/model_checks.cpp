@@ -228,12 +228,39 @@ std::vector<HangingCorner> find_hanging_corners(const Assembly& assembly,
   names.fail(a, text);
 }
 
+/// Finds what hangs together by joints, by ties, and by contacts `touching` at an edge or a corner.
+void connect_blocks(const Assembly& assembly, const std::vector<std::pair<int, int>>& joints,
+                    const std::vector<std::pair<int, int>>& touching, ModelReport* report) {
+  DisjointSets islands(assembly.blocks.size());
+  std::vector<char> has_joint(assembly.blocks.size(), 0), touches(assembly.blocks.size(), 0);
+  for (const auto& [a, b] : joints) {
+    has_joint[a] = has_joint[b] = 1;
+    islands.join(a, b);
+  }
+  for (const auto& [a, b] : touching) {
+    touches[a] = touches[b] = 1;
+    islands.join(a, b);
+  }
+  for (const BuiltTie& tie : assembly.ties) {
+    has_joint[tie.block_a] = has_joint[tie.block_b] = 1;
+    islands.join(tie.block_a, tie.block_b);
+  }
+  std::vector<char> is_held(assembly.blocks.size(), 0);
+  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
+    if (assembly.blocks[b].fixed) is_held[islands.root(b)] = 1;
+  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b) {
+    if (islands.root(b) == b) ++report->islands;
+    if (!report->floating && is_held[islands.root(b)] == 0) report->floating = b;
+    if (!has_joint[b] && !touches[b]) report->blocks_without_joint.push_back(b);
+    if (!has_joint[b] && touches[b] && !assembly.blocks[b].fixed) ++report->blocks_on_edges;
+  }
+}
+
 void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shapes,
                  const ModelTolerances& tolerances, const Names& names, ModelReport* report) {
   std::vector<std::pair<int, int>> joints, touching;  // pairs of blocks; touching: at an edge or a corner
   std::vector<NarrowJoint> narrow;
   Overlaps overlaps;
-  DisjointSets islands(assembly.blocks.size());
   const ModelTolerances rounding = generated_tolerances(assembly);
   const double good_enough = std::min(tolerances.overlap, rounding.overlap);
   const double no_width = std::max(kNoWidth * tolerances.joint_width, rounding.joint_width);
@@ -278,24 +305,7 @@ void check_pairs(const Assembly& assembly, const std::vector<ConvexShape>& shape
   for (const NarrowJoint& joint : narrow)
     if (!std::ranges::binary_search(joints, std::pair(joint.block_a, joint.block_b)))
       report->narrow_joints.push_back(joint);
-  std::vector<char> has_joint(assembly.blocks.size(), 0);
-  for (const auto& pairs : {joints, touching})
-    for (const auto& [a, b] : pairs) {
-      has_joint[a] = has_joint[b] = 1;
-      islands.join(a, b);
-    }
-  for (const BuiltTie& tie : assembly.ties) {
-    has_joint[tie.block_a] = has_joint[tie.block_b] = 1;
-    islands.join(tie.block_a, tie.block_b);
-  }
-  std::vector<char> is_held(assembly.blocks.size(), 0);
-  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b)
-    if (assembly.blocks[b].fixed) is_held[islands.root(b)] = 1;
-  for (int b = 0; b < static_cast<int>(assembly.blocks.size()); ++b) {
-    if (islands.root(b) == b) ++report->islands;
-    if (!report->floating && is_held[islands.root(b)] == 0) report->floating = b;
-    if (!has_joint[b]) report->blocks_without_joint.push_back(b);
-  }
+  connect_blocks(assembly, joints, touching, report);
 }
 
 }  // namespace
@@ -351,6 +361,10 @@ std::string to_text(const ModelReport& r) {
       counted(r.num_blocks, "block"), counted(r.num_parts, "convex part"), counted(r.num_supports, "support"),
       counted(r.num_joints, "joint"), counted(r.islands, "connected component"), r.volume, r.smallest_block,
       r.largest_block);
+  if (r.blocks_on_edges > 0)
+    text += fmt::format(
+        "{} in contact at edges or corners only, where the solver finds joints that are not counted here\n",
+        counted(r.blocks_on_edges, "block"));
   if (r.shell_volume)
     text += fmt::format("smooth shell {:.9g} m3; the facets reduce it by a fraction of {:.3e}\n",
                         *r.shell_volume, 1.0 - r.volume / *r.shell_volume);

@@ -49,7 +49,8 @@ struct ModelReport {
   double max_joint_gap = 0.0;          ///< largest distance between the planes of two faces in a joint
   double shortest_edge = 0.0;
   int islands = 0;                              ///< connected components of the graph of joints and ties
-  std::vector<int> blocks_without_joint;        ///< and without tie
+  std::vector<int> blocks_without_joint;        ///< without tie and without contact at an edge or a corner
+  int blocks_on_edges = 0;                      ///< free ones that touch others at edges or corners only
   std::optional<int> floating;                  ///< first block of an island without a support
   std::set<std::pair<int, int>> joined_sheets;  ///< with joints between their free blocks, lower number first
   std::vector<char> is_borne;  ///< by ring: a block has a joint with a support or another sheet

@@ -1,16 +1,10 @@
 #include "postproc/evaluation/quantity_text.hpp"
 
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 namespace cupola {
-
-std::string with_capital(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
 
 ForceUnit force_unit(double largest) {
   if (largest >= 1e5) return {1e-6, "MN"};

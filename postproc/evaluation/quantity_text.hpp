@@ -17,9 +17,6 @@ std::string force_text(double newtons);
 /// "a normal force of 1.235 MN"; "a pull of 5.66 kN" of a negative one.
 std::string normal_force_text(double newtons);
 
-/// The text with a capital first letter.
-std::string with_capital(std::string text);
-
 /// "12.3 mm", "1.23 m"; "negligible" for 0.
 std::string length_text(double metres);
 

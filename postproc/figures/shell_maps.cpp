@@ -1,11 +1,11 @@
 #include "postproc/figures/shell_maps.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "assembly/base/with_capital.hpp"
 #include "postproc/figures/plot_style.hpp"
 
 namespace cupola {
@@ -105,8 +105,7 @@ Figure force_map(const ShellMap& map, const MapScales& scales) {
   const char* across = map.vault ? "hoop" : map.arch ? "lateral" : "horizontal";
   f.title = map.vault || scales.hoop > 0.0 ? fmt::format("{} and {} forces over the ", along, across)
                                            : fmt::format("{} forces over the ", along);
-  f.title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(f.title[0])));
-  f.title += mapped_text(map);
+  f.title = with_capital(f.title) + mapped_text(map);
   f.caption = fmt::format(
       "The {}{}{}. Forces per metre from the mean stress of each block, compression positive{}. Grey: the "
       "force is negligible.",

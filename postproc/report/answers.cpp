@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/with_capital.hpp"
 #include "assembly/case/limit_parameter.hpp"
 #include "assembly/model/ending.hpp"
 #include "postproc/evaluation/margin.hpp"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/with_capital.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/figures/range_text.hpp"
 #include "postproc/report/answers.hpp"

@@ -8,6 +8,7 @@
 
 #include "assembly/base/counted.hpp"
 #include "assembly/base/process.hpp"
+#include "assembly/base/with_capital.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/report/first_screen.hpp"
 #include "postproc/report/html.hpp"

@@ -1,6 +1,7 @@
 #include "postproc/studies/support_groups.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -73,6 +74,15 @@ std::vector<std::vector<int>> joined_by_azimuth(std::vector<std::vector<int>> gr
   return joined;
 }
 
+/// The imported name of a block if it can be a part of a folder's name and is not taken for a number; else its
+/// number. The blocks of a base that only the runs divide have none.
+std::string name_for_run(const Assembly& assembly, int block) {
+  const std::string name = block < std::ssize(assembly.blocks) ? assembly.blocks[block].name : "";
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  const bool is_name = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0;
+  return is_name && std::ranges::all_of(name, is_plain) ? name : std::to_string(block);
+}
+
 /// True if the base of the case can be divided into several blocks.
 bool divides_base(const Case& scene, const std::string& setting) {
   try {
@@ -132,7 +142,8 @@ std::vector<StudyRun> settlement_runs(const RunGroup& group, const std::string& 
   const double depth = group.settle * std::max(extent.sizes().x(), extent.sizes().y());
   std::vector<StudyRun> runs;
   for (const std::vector<int>& blocks : groups) {
-    runs.push_back({fmt::format("{}/{}_{}", study, group.name, blocks[0]), group.cases[0], settings});
+    runs.push_back({fmt::format("{}/{}_{}", study, group.name, name_for_run(assembly, blocks[0])),
+                    group.cases[0], settings});
     runs.back().settings.push_back(
         fmt::format("supports.moves=[{{\"blocks\":[{}],\"displacement\":[0,0,{:.6g}]}}]",
                     fmt::join(blocks, ","), -depth));

@@ -15,8 +15,8 @@ namespace cupola {
 std::vector<std::vector<int>> support_groups(const Assembly& assembly);
 
 /// The runs of a group with `settle`: one per support, which sinks by this share of the larger horizontal
-/// extent of the free blocks. `name` + "_" + the number of its first block names the run. A dome on one fixed
-/// block gets eight (geometry.base_blocks). Without such runs `reason` says why.
+/// extent of the free blocks. `name` + "_" + the name of its first block, or its number, names the run. A dome
+/// on one fixed block gets eight (geometry.base_blocks). Without such runs `reason` says why.
 std::vector<StudyRun> settlement_runs(const RunGroup& group, const std::string& study, const Case& scene,
                                       const Assembly& assembly, std::string* reason);
 

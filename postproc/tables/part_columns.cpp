@@ -41,7 +41,8 @@ const Columns<WytheRow>& wythe_columns() {
        &W::name},
       {"joints", "", "its bed joints under blocks that begin in the ring",
        [](const W& w) { return w.sum.joints; }},
-      {"area_m2", "m2", "area of these joints", [](const W& w) { return w.sum.area; }},
+      {"area_m2", "m2", "area of these joints, without what opens beyond `contact.margin`",
+       [](const W& w) { return w.sum.area; }},
       {"vertical_force_N", "N",
        "vertical force through its joints on the blocks above the cut, positive upwards",
        [](const W& w) { return w.sum.vertical_force; }},
@@ -53,7 +54,7 @@ const Columns<WytheRow>& wythe_columns() {
        "mean place of the normal forces on its beds through its thickness: 0 inner, 1 outer side; empty: "
        "none",
        [](const W& w) { return w.sum.position; }},
-      {"pressure_Pa", "Pa", "normal force on its bed joints over their area",
+      {"pressure_Pa", "Pa", "normal force on its bed joints over this area",
        [](const W& w) { return w.sum.pressure; }},
       {"cv_pressure", "", "coefficient of variation of the pressure of its bed joints",
        [](const W& w) { return w.sum.cv_pressure; }},

@@ -1,12 +1,12 @@
 #include "postproc/viewer/scene.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
+#include "assembly/base/with_capital.hpp"
 #include "postproc/evaluation/quantity_text.hpp"
 #include "postproc/tables/range_values.hpp"
 #include "postproc/tables/result_columns.hpp"
@@ -62,8 +62,7 @@ std::string label_of(const ColumnInfo& column) {
   else if (!suffix.empty() && text.ends_with("_" + suffix))
     text.resize(text.size() - suffix.size() - 1);
   std::replace(text.begin(), text.end(), '_', ' ');
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
+  return with_capital(text);
 }
 
 /// True for a share that the view shows in percent, as the cards do.

@@ -1,5 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <random>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -131,6 +135,46 @@ TEST(Decomposition, DoesNotDependOnTheDistanceFromTheOrigin) {
   EXPECT_NE(d.method, Decomposition::Method::nef);
   EXPECT_NEAR(volume_of(d.parts), mesh_volume(mesh), 1e-11)
       << "m3, of faces of 2 m2 whose corners are rounded";
+}
+
+/// The surface of unit cubes at whole coordinates: their sides without a cube behind them.
+RawBlock polycube(const std::set<std::array<int, 3>>& cubes, const Eigen::Quaterniond& rotation) {
+  RawBlock block{"polycube", {"test", 1, 0}, {}, {}, false, {}};
+  std::map<std::array<int, 3>, int> ids;
+  for (const auto& cube : cubes)
+    for (size_t axis = 0; axis < 3; ++axis)
+      for (const int side : {0, 1}) {
+        std::array<int, 3> beyond = cube;
+        beyond.at(axis) += 2 * side - 1;
+        if (cubes.contains(beyond)) continue;
+        std::vector<int> face;
+        for (const auto& [u, v] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+          std::array<int, 3> corner = cube;
+          corner.at(axis) += side;
+          corner.at((axis + 1) % 3) += u;
+          corner.at((axis + 2) % 3) += v;
+          const auto [id, is_new] = ids.try_emplace(corner, static_cast<int>(block.mesh.vertices.size()));
+          if (is_new) block.mesh.vertices.push_back(rotation * Vec3(corner[0], corner[1], corner[2]));
+          face.push_back(id->second);
+        }
+        if (side == 0) std::ranges::reverse(face);
+        block.mesh.faces.push_back(face);
+      }
+  return block;
+}
+
+// Six cubes turned at random. Where faces of a cell and of the stone lie in one plane up to rounding, a
+// volume was wrong by up to 4 %: 15 of these 200 became 21 to 35 parts, by Nef polyhedra.
+TEST(Decomposition, OfSixTurnedCubesFollowsTheirFaces) {
+  std::mt19937 random(1);
+  const auto number = [&] { return random() / 2147483648.0 - 1.0; };
+  for (int turn = 0; turn < 200; ++turn) {
+    const Eigen::Quaterniond rotation(number(), number(), number(), number());
+    const RawBlock stone = polycube({{0, 0, 0}, {1, 0, 0}, {-1, 0, 0}, {1, -1, 0}, {-1, 0, -1}, {-2, 0, 0}},
+                                    rotation.normalized());
+    SCOPED_TRACE(turn);
+    expect_partition(repair_mesh(stone, 1e-6), 6.0, 3);  // the row, and a cube at two of its sides
+  }
 }
 
 TEST(Decomposition, NefFallbackGivesAPartition) {

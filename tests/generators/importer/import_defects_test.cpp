@@ -1,6 +1,7 @@
 // Files that are refused or doubted, and with which words.
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/ranges.h>
 
@@ -62,6 +63,40 @@ TEST_F(Import, NamesTheDefectOfInvalidInput) {
   EXPECT_NE(complaint(write("cut.json", "{\"data\": {\"graph\":")).find("cut.json:1: error: not valid JSON"),
             std::string::npos);
   EXPECT_NE(complaint((folder_ / "missing.obj").string()).find("no such file"), std::string::npos);
+}
+
+/// A cube with the sides `edge` about (x, 0, 0), in lines of an OBJ file.
+std::string cube_at(double x, double edge, int first, bool inside_out) {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += fmt::format("v {} {} {}\n", x + (i & 1 ? 0.5 : -0.5) * edge, (i & 2 ? 0.5 : -0.5) * edge,
+                        (i & 4 ? 0.5 : -0.5) * edge);
+  std::array<std::array<int, 4>, 6> faces{
+      {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (auto& face : faces) {
+    if (inside_out) std::ranges::reverse(face);
+    text +=
+        fmt::format("f {} {} {} {}\n", first + face[0], first + face[1], first + face[2], first + face[3]);
+  }
+  return text;
+}
+
+// A surface that looks the wrong way beside another one of the block was "cannot be split into convex parts",
+// and a cavity drawn as a block of its own had the advice to reverse it: a stone inside the other.
+TEST_F(Import, TellsSurfacesThatAreInsideOutFromCavities) {
+  ImportedBlocks source;
+  source.path = write("cavity.obj", "o a\n" + cube_at(0, 1.0, 1, false) + cube_at(0, 0.5, 9, true));
+  EXPECT_NEAR(import_blocks(source, 1000.0).blocks.at(0).volume, 0.875, 1e-15) << "m3, up to rounding";
+  for (const double x : {0.0, 3.0}) {
+    const std::string found =
+        complaint(write("one.obj", "o a\n" + cube_at(0, 1.0, 1, false) + cube_at(x, 0.5, 9, x > 0.0)));
+    EXPECT_NE(found.find("block a: one of its closed surfaces is inside out"), std::string::npos) << found;
+  }
+  const std::string found =
+      complaint(write("own.obj", "o a\n" + cube_at(0, 1.0, 1, false) + "o b\n" + cube_at(0, 0.5, 9, true)));
+  EXPECT_NE(found.find("block b: inside out: reverse its faces, or, if it is the cavity of another block"),
+            std::string::npos)
+      << found;
 }
 
 // A load that is in the table but not in the model would turn "it falls" into "it stands".

@@ -45,6 +45,23 @@ TEST_F(Import, ClosesGapsAndOverlapsOfRoundedCoordinates) {
   EXPECT_LT(report.model.max_joint_gap, 1e-12);
 }
 
+// The solver finds a joint of an edge and a face, which the generator does not count: "0 joints".
+TEST_F(Import, CountsBlocksThatTouchAtEdgesOnly) {
+  Case scene;
+  scene.geometry.imported.emplace();
+  scene.geometry.imported->path =
+      write("edge.obj", obj_of({prism({{-2, -1}, {2, -1}, {2, 0}, {-2, 0}}, 1.0, "ground"),
+                                prism({{0, 0}, {1, 1}, {0, 2}, {-1, 1}}, 1.0, "on edge"),
+                                prism({{1, 0}, {2, 0}, {2, 1}, {1, 1}}, 1.0, "on face")}));
+  scene.geometry.imported->supports = {"ground"};
+  GenerateReport report;
+  generate(scene, &report);
+  EXPECT_EQ(report.model.num_joints, 1);
+  EXPECT_EQ(report.model.islands, 1);
+  EXPECT_TRUE(report.model.blocks_without_joint.empty());
+  EXPECT_EQ(report.model.blocks_on_edges, 1);
+}
+
 // On a ground of 3 x 3 m the base of a stone of 1 x 1 m is most of the gap from their common plane.
 TEST_F(Import, SnapsByTheWidestGapWhateverTheAreas) {
   const auto box = [](const char* name, double x, double size, double low, double high) {

@@ -50,14 +50,14 @@ Case wall_over_barrel(double end, const Affine& affine) {
   return c;
 }
 
-/// m3, of the wall that is left.
+/// m3, of the wall and its copies that is left.
 double wall_left(const Case& c) {
   ModelReport report;
   const Assembly assembly = check_and_report(c, &report);
   EXPECT_EQ(report.islands, 1);
   double volume = 0.0;
   for (const Block& block : assembly.blocks)
-    if (!block.fixed && assembly.sheet_of(block.ring)->name == "wall") volume += block.volume;
+    if (!block.fixed && assembly.sheet_of(block.ring)->name.starts_with("wall")) volume += block.volume;
   return volume;
 }
 
@@ -71,6 +71,20 @@ TEST(CutUnder, IsShearedAsTheBarrel) {
       EXPECT_NEAR(wall_left(wall_over_barrel(end, affine)),
                   kThick * 5.0 * (end + 2.0) - section * std::min(end, kLong), 1e-12)
           << "end " << end << ", rake " << affine.rake << ", lean " << affine.lean;
+}
+
+// The image of the wall, from y = 1.5 to 4.5 m, reaches over 0.5 m of the barrel, the wall over 1 m. The error
+// of a copy beside the barrel named coordinates, which this cut does not have. Tolerance as above.
+TEST(CutUnder, TakesFromEachCopyWhatLiesUnderIt) {
+  const double section = kThick * (kFoot + kRadius) - kThick * kThick / 4 * std::tan(std::numbers::pi / 16);
+  Case c = wall_over_barrel(1.0, {});
+  c.geometry.members[1].mirror = Mirror{{0.0, 1.25, 0.0}, Vec3::UnitY()};
+  EXPECT_NEAR(wall_left(c), 2.0 * kThick * 5.0 * 3.0 - 1.5 * section, 1e-12);
+  c.geometry.members[1].mirror->point.y() = 2.0;
+  EXPECT_NE(refusal_of(c).find("geometry.members[1].cuts[0]: the cut takes nothing; the member or a copy of "
+                               "it lies beside barrel"),
+            std::string::npos)
+      << refusal_of(c);
 }
 
 TEST(CutUnder, RequiresASectionThatStaysBetweenItsSpringings) {

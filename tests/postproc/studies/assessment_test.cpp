@@ -55,6 +55,23 @@ TEST(SupportGroups, AreSixteenAtMost) {
   EXPECT_EQ(blocks, places.size());
 }
 
+// Names that are numbers, or no names of folders, would be taken for others.
+TEST(SupportGroups, RunsHaveTheNamesOfImportedBlocks) {
+  Assembly a = cubes({0, 6, 12, 18, 24});
+  const char* names[] = {"pier/west", "pier_east", "3", "", "stone"};
+  for (size_t b = 0; b < 5; ++b) a.blocks[b].name = names[b];
+  a.blocks[4].fixed = false;
+  RunGroup group;
+  group.name = "settled";
+  group.cases = {"a"};
+  group.settle = 1e-4;
+  std::string reason;
+  std::vector<std::string> runs;
+  for (const StudyRun& run : settlement_runs(group, "safe", {}, a, &reason)) runs.push_back(run.name);
+  EXPECT_EQ(runs, (std::vector<std::string>{"safe/settled_0", "safe/settled_pier_east", "safe/settled_2",
+                                            "safe/settled_3"}));
+}
+
 // Runs of the study "safe" of the case "a"; b failed, and the case gives no lantern.
 struct Page {
   ScratchFolder scratch;
