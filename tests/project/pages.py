@@ -6,7 +6,7 @@
 
 - Lines of the documentation have at most 120 columns, except tables; its prose has at most 19,000 words.
 - Every table between `<!-- table NAME -->` and `<!-- end -->` names the revision that measured it, neither unknown
-  nor dirty, and a commit of this repository. Tables of REMEASURE are still to be measured again; none may be added.
+  nor dirty, and a commit of this repository.
 - What `make -f Makefile.cases` runs on a page is a target, a case, a variant or a study; names that begin with my_ are
   the reader's.
 - A target takes as long in CONTRIBUTING.md, and in a comment behind its command, as the help of make or the title of
@@ -15,8 +15,7 @@
   that the number before the comment quotes, rounded to its digits. Parts with spaces stand in quotes, the first
   cells of a row are joined by "|" (`\\|` in a table). A fifth part multiplies the cell, a sixth is added to it; `/ROW`
   before them divides the cell by that of another row. `114<!--= PAGE count right verdict-->` counts the rows of all
-  tables of the page with that text under that heading; `refused*` is any text that begins so. A number from a table of
-  REMEASURE without rows is compared once there are some.
+  tables of the page with that text under that heading; `refused*` is any text that begins so.
 - "Ten mistakes", "eight steps", "six pictures" before the first section of a page are as many as the page has.
 - No sentence says that something is not modelled which has a key of its own.
 - A symbol that two pages define by a formula in brackets, `kappa = (...) / rho`, is the same on both.
@@ -32,7 +31,6 @@ import sys
 WIDTH = 120
 MOST_WORDS = 19000
 
-REMEASURE = {"docs/data/ranges.md spirals_160"}
 BLOCK = re.compile(r"^<!-- table (\S+) -->$(.*?)^<!-- end -->$", re.S | re.M)
 COMMAND = re.compile(r"make -f (?:[~\w./]*/)?Makefile\.cases((?: +[\w.=\'/-]+)+)")
 TIME = re.compile(r"(?:(half an?|an?|\d+|two|three|four|five|ten) )?(second|minute|hour)s?\b")
@@ -78,16 +76,14 @@ def commits_of(root):
     return git("rev-list", "--all") if git("rev-parse", "--is-shallow-repository") == ["false"] else None
 
 
-def revisions(name, text, remeasure, commits):
+def revisions(name, text, commits):
     faults = []
     for block in BLOCK.finditer(text):
         table = f"{name} {block[1]}"
         found = re.search(r"^Measured .*? revision (\S+)", block[2], re.M)
         clean = found is not None and re.fullmatch(r"(v[0-9.]+-\d+-g)?[0-9a-f]{7,40}", found[1]) is not None
         clean = clean and (commits is None or any(commit.startswith(found[1].split("-g")[-1]) for commit in commits))
-        if clean and table in remeasure:
-            faults.append(f"{table}: has been measured again; remove it from REMEASURE of pages.py")
-        elif not clean and table not in remeasure:
+        if not clean:
             faults.append(f"{table}: revision {found[1] if found else 'missing'}; measure it from a commit that is kept")
     return faults
 
@@ -158,10 +154,6 @@ def cell_of(text, table, row, heading):
     return float(number[0])
 
 
-def has_no_rows(text, table):
-    return any(block[1] == table and "|" not in block[2] for block in BLOCK.finditer(text))
-
-
 def count_of(text, value, heading):
     """Number of rows of all tables whose cell under the heading matches the pattern of a shell."""
     total, header = 0, None
@@ -176,7 +168,7 @@ def count_of(text, value, heading):
     return total
 
 
-def quoted_numbers(root, name, text, remeasure=frozenset()):
+def quoted_numbers(root, name, text):
     faults = []
     for quote in QUOTE.finditer(text):
         number, source = quote[1].replace(",", ""), " ".join(quote[2].split())
@@ -185,8 +177,6 @@ def quoted_numbers(root, name, text, remeasure=frozenset()):
             other = scale.pop(0)[1:] if scale and scale[0].startswith("/") else None
             factor, summand = map(float, scale + ["1", "0"][len(scale):])
             source_text = (root / page).read_text()
-            if f"{page} {table}" in remeasure and has_no_rows(source_text, table):
-                continue
             value = count_of(source_text, row, heading) if table == "count" else cell_of(source_text, table, row, heading)
             value /= cell_of(source_text, table, other, heading) if other else 1
             value = value * factor + summand
@@ -236,14 +226,14 @@ def unlike_definitions(texts):
             for symbol, formulas in said.items() if len(formulas) > 1]
 
 
-def faults_of(root, remeasure):
+def faults_of(root):
     faults, known, times, commits = [], names_of_make(root), durations(root), commits_of(root)
     site, tests = (root / "docs/site.yml").read_text(), names_of_tests(root)
     pages = sorted([*prose_pages(root), root / "tests/benchmark/README.md", root / "assembly/FORMAT.md",
                     *(root / folder / "README.md" for folder in (".", "cases", "generators", "solver", "postproc"))])
     for page in pages:
         name, text = str(page.relative_to(root)), page.read_text()
-        faults += wide_lines(name, text) + revisions(name, text, remeasure, commits) + quoted_numbers(root, name, text, remeasure)
+        faults += wide_lines(name, text) + revisions(name, text, commits) + quoted_numbers(root, name, text)
         faults += dead_commands(name, text, known) + wrong_durations(name, text, times)
         faults += counted_lists(name, text) + modelled_after_all(name, text) + dead_tests(name, text, tests)
         faults += [f"{name}: not in docs/site.yml"] if name.startswith("docs/") and name not in site else []
@@ -258,10 +248,9 @@ def check_the_checks(root):
     """Each check sees its fault."""
     table = "<!-- table t -->\n\n| run | max |\n|---|---|\n| a | 0.408 |\n\nMeasured 2026 at revision {}\n\n<!-- end -->"
     assert not wide_lines("p", "a " * 60) and wide_lines("p", "a " * 61) and not wide_lines("p", "| " + "a " * 90)
-    assert not revisions("p", table.format("fffe37b"), set(), None) and not revisions("p", table.format("fffe37b"), set(), ["fffe37b0"])
-    assert not revisions("p", table.replace("at revision", "by the programs of revision").format("v0.2.0-13-g02420a8"), set(), ["02420a8"])
-    assert all(revisions("p", table.format(bad), set(), ["fffe37b0"]) for bad in ("unknown", "fffe37b-dirty", "fffe37c"))
-    assert revisions("p", table.format("fffe37b"), {"p t"}, None) and not revisions("p", table.format("f-dirty"), {"p t"}, None)
+    assert not revisions("p", table.format("fffe37b"), None) and not revisions("p", table.format("fffe37b"), ["fffe37b0"])
+    assert not revisions("p", table.replace("at revision", "by the programs of revision").format("v0.2.0-13-g02420a8"), ["02420a8"])
+    assert all(revisions("p", table.format(bad), ["fffe37b0"]) for bad in ("unknown", "fffe37b-dirty", "fffe37c"))
     assert cell_of(table, "t", "a", "max") == 0.408
     assert dead_commands("p", "`make -f Makefile.cases dome`", {"arch"})
     assert not dead_commands("p", "`make -f ~/c/Makefile.cases -j2 A=1 arch my_b`, make -f Makefile.cases NAME", {"arch"})
@@ -283,8 +272,6 @@ def check_the_checks(root):
     assert not quoted_numbers(root, "p", f"0<!--= {ratio} 100 -100-->") and quoted_numbers(root, "p", f"1.0<!--= {page} /x-->")
     cell = '| 2560<!--= docs/data/ranges.md proportions "40{}|0" blocks--> |'
     assert not quoted_numbers(root, "p", cell.format("\\")) and quoted_numbers(root, "p", cell.format(""))
-    assert has_no_rows("<!-- table t -->\n<!-- end -->", "t") and not has_no_rows(table, "t")
-    assert quoted_numbers(root, "p", f"0.42<!--= {page}-->", {"docs/data/ranges.md ranges"})
     assert quoted_numbers(root, "p", f"0.41<!--= {page} x-->") and quoted_numbers(root, "p", "word<!--= x-->")
 
 
@@ -296,6 +283,6 @@ if __name__ == "__main__":
         print(f"{words_of(repository):6} in all")
         sys.exit()
     check_the_checks(repository)
-    found = faults_of(repository, REMEASURE)
+    found = faults_of(repository)
     print("\n".join(found))
     sys.exit(1 if found else 0)
