@@ -105,7 +105,8 @@ void declare_path(Section& s, LoadPath& path) {
            "geometry in which each equilibrium holds: that at the start of its step unless it moves a block "
            "by more "
            "than a hundredth of the smallest, or always that at its end, found by further solves");
-  s.rule(path.geometry == PathGeometry::start || !path.length, "geometry", "end excludes length");
+  s.rule(path.geometry == PathGeometry::start || !path.length, "geometry",
+         "end excludes length, whose equilibria hold in the geometry at the start of their steps");
   s.optional_section("control", path.control,
                      "block whose displacement and force path.csv tabulates; none: the support that moves "
                      "farthest or else the block whose load changes most",

@@ -66,7 +66,7 @@ void check_chain(const Section& s, const Geometry& geometry, const Chain& chain)
                      near.empty() ? "" : fmt::format("; did you mean {}?", near)));
   const auto has_copies = [](const Member* m) { return m->copies || m->mirror; };
   s.rule(!chain.member.empty() || std::ranges::none_of(members_of(geometry), has_copies), "chains",
-         "in a model with copies, each names its `member`");
+         fmt::format("in a model with copies, each names its `member`, of {}", fmt::join(names, ", ")));
   if (!member) return;
   const SurfaceTraits traits = traits_of(member->surface);
   const int rings = std::visit([](const auto& bond) { return bond.rings; }, *finest_bond(*member));

@@ -8,8 +8,6 @@ void declare_block_density(Section& s, BlockDensity& change) {
   s.rule(!change.blocks.empty(), "blocks",
          "must name a block: material.density is that of all without one of their own");
   s.required_number("density", change.density, {.unit = "kg/m3", .above = 0}, "density of these blocks");
-  s.expect({"density", change.density, "kg/m3", kLightest / 9.81, kHeaviest / 9.81,
-            "in t/m3 or kN/m3? Write 1800", "a unit weight in N/m3? Divide by 9.81"});
 }
 
 }  // namespace

@@ -1,12 +1,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "assembly/base/counted.hpp"
 #include "assembly/case/case_times.hpp"
+#include "assembly/case/declare.hpp"
 #include "assembly/case/plausibility.hpp"
 #include "assembly/case/plausible_range.hpp"
 #include "assembly/model/applied_loads.hpp"
@@ -183,6 +185,30 @@ std::vector<std::string> felt_by_no_stage(const Case& scene, const Assembly& ass
   return out;
 }
 
+/// The least and the greatest density that files of blocks, or the case, give to blocks of an import; that of
+/// all others is checked where it stands.
+void add_densities(const Case& scene, const Assembly& assembly, std::vector<PlausibleRange>* checks) {
+  constexpr double kGravity = 9.81;
+  constexpr double kRounding = 1e-9;  // relative, of masses summed over parts
+  const double of_all = scene.material.density();
+  std::map<double, int> blocks;
+  for (size_t k = 0; k < assembly.blocks.size(); ++k) {
+    const Block& block = assembly.blocks[k];
+    const double density = block.mass / block.volume;
+    if (!block.fixed && std::abs(density - of_all) > kRounding * of_all)
+      blocks.try_emplace(density, static_cast<int>(k));
+  }
+  if (blocks.empty()) return;
+  const auto add = [&](const std::pair<const double, int>& found) {
+    checks->push_back(
+        {fmt::format("geometry.import (density of block {})", block_label(assembly, found.second)),
+         found.first, "kg/m3", kLightest / kGravity, kHeaviest / kGravity, "in t/m3 or kN/m3? Write 1800",
+         "a unit weight in N/m3? Divide by 9.81"});
+  };
+  add(*blocks.begin());
+  if (blocks.size() > 1) add(*blocks.rbegin());
+}
+
 }  // namespace
 
 std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembly& assembly) {
@@ -193,6 +219,7 @@ std::vector<std::string> implausible_for_blocks(const Case& scene, const Assembl
     checks.push_back({"geometry.import (size of the model)", extent.size(), "m", 0.05, 1e3,
                       "drawn in km? Set geometry.import.metres_per_unit",
                       "drawn in millimetres? Set geometry.import.metres_per_unit: 0.001"});
+  if (scene.geometry.imported) add_densities(scene, assembly, &checks);
   const LimitSearch& limit = scene.analysis.limit;
   const auto varies = [&](LimitSearch::Parameter parameter) {
     return scene.analysis.type == AnalysisType::limit && limit.parameter == parameter;
