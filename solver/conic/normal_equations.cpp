@@ -72,9 +72,9 @@ VecX NormalEquations::multiply(const VecX& w) const {
 
 VecX NormalEquations::solve(const VecX& f) const {
   constexpr int kMaxIterations = 8;
-  constexpr double kMostGrowth =
-      3e3;  // of the norm of x: from 1e5 on searches for friction stall, at 1e2 digits are lost
-  constexpr double kEnough = 1e-8;  // of the norm of f; refinement by the rows themselves does the rest
+  // At 1e2 limits of `octagon_circular` lose digits, from 3e4 on searches for the friction of tied domes stall.
+  constexpr double kMostGrowth = 3e3;  // of the norm of x
+  constexpr double kEnough = 1e-8;     // of the norm of f; refinement by the rows themselves does the rest
   VecX x = factor_.solve(f);
   const double most = kMostGrowth * x.norm();
   VecX r = f - multiply(x);
