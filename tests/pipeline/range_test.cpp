@@ -76,6 +76,17 @@ TEST(LimitOfDomes, IsProvenBeyondTheDigitsOfItsFactor) {
   EXPECT_LT(summary.accuracy.reached, 2e-11);
 }
 
+// Improved too far, solves of this search grow along motions that only its border resists and stall: from a
+// growth of 3e4 on its bracket stays 1.7e-4 wide, where 1e-4 is requested.
+TEST(LimitOfDomesSlow, FrictionOfATiedDomeIsBracketed) {
+  const Case scene = read_case(kCases + "brunelleschi_chains.yaml",
+                               {"analysis.type=limit", "analysis.limit.parameter=friction",
+                                "analysis.limit.low=0.03", "analysis.limit.high=0.3"});
+  const Summary summary = run_direct_limit(scene, generate(scene), {}).value();
+  EXPECT_EQ(summary.status, Status::stable) << summary.message;
+  EXPECT_LE(summary.accuracy.reached, 1e-4);
+}
+
 // By symmetry and convexity a sector has the same range. A joint alone does not repeat; the mean over its
 // images does.
 TEST(RangeOfDomes, OneSectorGivesTheRangesOfTheWholeModel) {
