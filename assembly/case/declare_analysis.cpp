@@ -106,7 +106,7 @@ void declare_path(Section& s, LoadPath& path) {
            "by more "
            "than a hundredth of the smallest, or always that at its end, found by further solves");
   s.rule(path.geometry == PathGeometry::start || !path.length, "geometry",
-         "end excludes length, whose equilibria hold in the geometry at the start of their steps");
+         "end excludes length: give one of the two");
   s.optional_section("control", path.control,
                      "block whose displacement and force path.csv tabulates; none: the support that moves "
                      "farthest or else the block whose load changes most",

@@ -90,11 +90,9 @@ std::string gaps_text(const Assembly& assembly, const PairValues& gaps) {
   const auto& [pair, gap] =
       *std::ranges::max_element(gaps, {}, [](const auto& of_pair) { return of_pair.second; });
   return fmt::format(
-      "{} drawn open within contact.margin, by up to {:.3g} m between blocks {} and {}: they bear nothing "
-      "until "
-      "they close, count as cracks, and are closed in ranges and limits; if they are errors of the drawing, "
-      "set "
-      "contact.initial_gaps: ignore",
+      "{} drawn open within contact.margin, by up to {:.3g} m between blocks {} and {}: such joints bear "
+      "nothing until they close, and count as cracks, but ranges and limits take them as closed; if they are "
+      "errors of the drawing, set contact.initial_gaps: ignore",
       counted(gaps.size(), "joint is", "joints are"), gap, block_label(assembly, pair.first),
       block_label(assembly, pair.second));
 }
